@@ -1,0 +1,86 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "meshcontour/error.hpp"
+
+namespace meshcontour {
+
+using Point = Eigen::Vector3d;
+using Vector = Eigen::Vector3d;
+using Index = std::uint32_t;
+using Triangle = std::array<Index, 3>;  ///< three indices into Shell::points, counter-clockwise seen from outside
+using Box = Eigen::AlignedBox3d;
+
+/// Colour with 8 bits a channel; alpha 255 is opaque.
+struct Rgba {
+  std::uint8_t red = 0x7d, green = 0x7d, blue = 0x7d, alpha = 0xff;
+  friend bool operator==(const Rgba&, const Rgba&) = default;
+};
+
+/// A smooth piece of a shell, for a webxml file one <facets> element: one B-rep face.
+/// It is a range of the shell's triangles; patches follow one another without gap or overlap.
+struct Patch {
+  std::string name;
+  Rgba color;
+  std::size_t first_triangle = 0;
+  std::size_t triangle_count = 0;
+};
+
+/// Triangles that share one list of points, in a frame and unit of their own.
+struct Shell {
+  std::string id;
+  Rgba color;
+  std::vector<Point> points;  ///< finite; a point may be used by several patches, or by none
+  std::vector<Triangle> triangles;
+  std::vector<Patch> patches;
+  std::vector<Vector> corner_normals;  ///< 3 a triangle, of length 1, or (0,0,0) where unknown; or the whole list empty
+
+  /// The triangles of one patch.
+  std::span<const Triangle> patch_triangles(std::size_t patch) const {
+    return std::span(triangles).subspan(patches[patch].first_triangle, patches[patch].triangle_count);
+  }
+};
+
+/// One occurrence of a shell in the model.
+struct Instance {
+  std::size_t shell = 0;        ///< index into Model::shells
+  Eigen::Affine3d placement = Eigen::Affine3d::Identity();  ///< shell frame to model frame; may mirror
+  std::string path;             ///< product and shape ids from the root, joined by '/'
+};
+
+/// A line drawing that comes with the model (PMI, construction geometry), already placed in the model frame.
+struct Polyline {
+  std::string name;
+  std::vector<Point> points;
+};
+
+/// Everything that a file says. Shells are stored once however often they are placed.
+struct Model {
+  std::string name;
+  double metres_per_unit = 0;  ///< 0: unknown
+  std::vector<Shell> shells;
+  std::vector<Instance> instances;
+  std::vector<Polyline> annotations;
+  std::vector<Diagnostic> diagnostics;
+};
+
+/// The box of the points that a triangle uses, in the shell's frame; empty for a shell without triangles.
+Box bounding_box(const Shell& shell);
+
+/// The box of all instances and annotations, in the model's frame.
+Box bounding_box(const Model& model);
+
+/// Checks what every stage relies on: indices in range, points finite, patches a partition of the triangles,
+/// corner normals none or three a triangle, instances naming a shell.
+///
+/// @throws Error   Internal, naming the shell and what is wrong: a reader or a generator broke its promise.
+void validate(const Model& model);
+
+}  // namespace meshcontour

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+#include "meshcontour/model.hpp"
+
+namespace meshcontour {
+
+/// Limits that keep a hostile file from exhausting the machine. Lengths are in the file's own unit.
+struct ReadOptions {
+  std::uint64_t max_triangles = 200'000'000;  ///< stored, and over all instances
+  std::uint64_t max_instances = 1'000'000;
+  bool strict = false;  ///< anything that would be mended with a warning is an error
+  unsigned threads = 0; ///< 0: one per processor
+};
+
+/// Reads a file; the format follows its content, with the extension as a hint.
+///
+/// Files that it names are read only from the folder of the file itself or below.
+///
+/// @throws Error  NoInput if the file cannot be opened, BadData with file, line and element if it is wrong,
+///                OutOfMemory if it asks for more than a limit.
+Model read_model(const std::filesystem::path& file, const ReadOptions& options = {});
+
+/// Reads a model from memory, e.g. standard input.
+///
+/// @param name    stands for the file in messages and gives the extension; files beside it are not read.
+Model read_model(std::string_view bytes, std::string_view name, const ReadOptions& options = {});
+
+}  // namespace meshcontour

@@ -1,0 +1,7 @@
+#pragma once
+
+// Catch2 as every test includes it.
+
+#include <catch2/catch.hpp>
+
+using Catch::Approx;
