@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 
 inline std::filesystem::path shared_dir() {
   return MESHCONTOUR_SHARED_DIR;
