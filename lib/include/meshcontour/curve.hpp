@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "meshcontour/model.hpp"
+#include "meshcontour/types.hpp"
 
 namespace meshcontour {
 

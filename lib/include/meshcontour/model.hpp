@@ -1,28 +1,15 @@
 #pragma once
 
-#include <Eigen/Geometry>
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "meshcontour/curve.hpp"
 #include "meshcontour/error.hpp"
+#include "meshcontour/types.hpp"
 
 namespace meshcontour {
-
-using Point = Eigen::Vector3d;
-using Vector = Eigen::Vector3d;
-using Index = std::uint32_t;
-using Triangle = std::array<Index, 3>;  ///< three indices into Shell::points, counter-clockwise seen from outside
-using Box = Eigen::AlignedBox3d;
-
-/// Colour with 8 bits a channel; alpha 255 is opaque.
-struct Rgba {
-  std::uint8_t red = 0x7d, green = 0x7d, blue = 0x7d, alpha = 0xff;
-  friend bool operator==(const Rgba&, const Rgba&) = default;
-};
 
 /// A smooth piece of a shell, for a webxml file one <facets> element: one B-rep face.
 /// It is a range of the shell's triangles; patches follow one another without gap or overlap.
@@ -61,6 +48,12 @@ struct Polyline {
   std::vector<Point> points;
 };
 
+/// A curve that the file itself gives, already placed in the model frame. It is drawn and exported as it is.
+struct NamedCurve {
+  std::string name;
+  Curve curve;
+};
+
 /// Everything that a file says. Shells are stored once however often they are placed.
 struct Model {
   std::string name;
@@ -68,6 +61,7 @@ struct Model {
   std::vector<Shell> shells;
   std::vector<Instance> instances;
   std::vector<Polyline> annotations;
+  std::vector<NamedCurve> curves;
   std::vector<Diagnostic> diagnostics;
 };
 
