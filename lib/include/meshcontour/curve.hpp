@@ -57,6 +57,12 @@ struct Segment {
   Index from = 0, to = 0;  ///< vertices of the shell at its ends; equal when it is the whole loop
   Curve curve;
   double deviation = 0;    ///< upper bound of its distance to the loop's chords and vertices, model units
+
+  /// The edges of the shell that it runs along: edge .. edge + edge_count - 1, numbered from 0 within the shell.
+  /// Segments of a shell along the same edges are the same curve, bit for bit, `reversed` where they run against
+  /// its first use. Several edges: a full circle or ellipse that other patches see in parts. None: not known.
+  Index edge = 0, edge_count = 0;
+  bool reversed = false;
 };
 
 /// The curve of one boundary loop.

@@ -33,6 +33,12 @@ struct FitOptions {
 std::vector<Contour> fit_contours(const Model& model, std::span<const ShellBoundary> boundaries,
                                   const FitOptions& options, std::vector<Diagnostic>& diagnostics);
 
+/// For each contour and each of its segments, whether earlier segments of the shell already run along all of its
+/// edges: what is left out when every edge is to be written once. Segments without edges are never repeats.
+///
+/// @param contours  those that are written, in their order; any subset of a model's.
+std::vector<std::vector<bool>> repeated_segments(std::span<const Contour> contours);
+
 /// The closed uniform cubic B-spline whose control points are the points of a loop, the first three repeated; knots
 /// 0, 1, 2, ... The curve lies inside the loop: on a circle by 4/3 of the chords' sagitta.
 ///
