@@ -4,4 +4,4 @@
 
 #include <catch2/catch.hpp>
 
-using Catch::Approx;
+using Catch::Detail::Approx;

@@ -34,6 +34,8 @@ struct EllipticalArc {
   double ratio = 1;                ///< minor half axis / major half axis, in (0, 1]
   double angle = 0;                ///< radians of the ellipse's own parameter, in (0, 2 pi]
   bool full() const;
+  Vector minor() const;            ///< the minor half axis, length included
+  double start_parameter() const;  ///< t of `start`, radians in [0, 2 pi)
 };
 
 /// A B-spline curve, rational when `weights` is not empty.
