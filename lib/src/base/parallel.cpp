@@ -16,7 +16,11 @@ void parallel_for(std::size_t count, std::size_t grain, unsigned threads,
     for (std::size_t part = 0; part < parts; ++part) run(part);
     return;
   }
-  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+  // More threads than processors would gain nothing, and TBB complains on stderr.
+  const int processors = tbb::this_task_arena::max_concurrency();
+  tbb::task_arena arena(
+      threads == 0 ? processors
+                   : static_cast<int>(std::min<unsigned>(threads, static_cast<unsigned>(processors))));
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, parts, run); });
 }
 
