@@ -16,6 +16,8 @@ struct BoundaryEdge {
 };
 
 /// Boundary edges joined head to tail, directed as the triangles run where these agree.
+///
+/// A closed loop starts with its smallest edge by (from, to); an open chain runs that edge forwards.
 struct BoundaryLoop {
   std::vector<Index> vertices;  ///< indices into Shell::points; the first is not repeated at the end
   bool closed = true;           ///< false: an open chain, found only where the input itself is broken
@@ -24,10 +26,13 @@ struct BoundaryLoop {
 /// The boundary of one patch.
 struct PatchBoundary {
   std::vector<BoundaryEdge> edges;  ///< sorted by (from, to)
-  std::vector<BoundaryLoop> loops;  ///< in a fixed order, independent of the extractor and of the threads
-  std::size_t vertex_count = 0;     ///< boundary vertices, each once
-  std::size_t nonmanifold_edges = 0;  ///< edges with three or more triangles
-  std::size_t unheld_triangles = 0;   ///< `Halfedge` only: triangles that the Surface_mesh could not hold
+  std::vector<BoundaryLoop>
+      loops;                     ///< by their smallest edges, whatever the extractor or the number of threads
+  std::size_t vertex_count = 0;  ///< boundary vertices, each once
+  std::size_t nonmanifold_edges = 0;   ///< edges with three or more triangles
+  std::size_t unheld_triangles = 0;    ///< `Halfedge` only: triangles that the Surface_mesh could not hold
+  std::size_t inconsistent_edges = 0;  ///< edges whose two triangles run the same way
+  std::size_t touching_vertices = 0;   ///< vertices with more than two boundary edges
 };
 
 /// The boundaries of a shell's patches, in patch order.
@@ -48,25 +53,30 @@ struct BoundaryOptions {
 
 /// The boundaries of every shell of the model, parallel to Model::shells.
 ///
-/// Linear in the triangles. Findings (open chains, edges with three or more triangles, triangles that a Surface_mesh
-/// could not hold) are appended to `diagnostics`, one line a kind and shell.
+/// Linear in the triangles. Findings (open chains, edges with three or more triangles, triangles that a
+/// Surface_mesh could not hold) are appended to `diagnostics`, one line a kind and shell.
 std::vector<ShellBoundary> extract_boundaries(const Model& model, const BoundaryOptions& options,
                                               std::vector<Diagnostic>& diagnostics);
 
-/// Boundary edges of a patch, sorted by (from, to): edges with exactly one triangle. Degenerate triangles (a repeated
-/// index) count their one real edge twice, so they add nothing.
+/// Boundary edges of a patch, sorted by (from, to): edges with exactly one triangle. Triangles that repeat an
+/// index are passed over.
 std::vector<BoundaryEdge> sorted_boundary_edges(std::span<const Triangle> triangles);
 
 /// Joins the boundary edges of a patch to loops.
 ///
-/// At a vertex with several outgoing edges the successor is the one in the same triangle fan, so that a loop never
-/// crosses from fan to fan. Linear in the triangles at such vertices plus the edges.
+/// At a vertex with more than two edges those are joined that bound the same triangle fan, so that a loop
+/// never crosses from fan to fan. Triangles may run against each other: wherever an even number of edges
+/// meets, they are joined. Where a fan ends at an edge with three or more triangles its end is joined to that
+/// of another such fan; with an odd number of edges at a vertex one end stays open. Linear in the triangles
+/// and edges, but for sorting what meets at a crowded vertex.
 ///
 /// @param edges  as from sorted_boundary_edges for the same triangles.
-std::vector<BoundaryLoop> trace_loops(std::span<const Triangle> triangles, std::span<const BoundaryEdge> edges);
+std::vector<BoundaryLoop> trace_loops(std::span<const Triangle> triangles,
+                                      std::span<const BoundaryEdge> edges);
 
-/// Vertices that the report's criterion |N1(v)| != |L(v)| calls boundary: the number of neighbours differs from the
-/// number of incident triangles. Sorted, each once. On a manifold patch these are the ends of the boundary edges.
+/// Vertices that the report's criterion |N1(v)| != |L(v)| calls boundary: the number of neighbours differs
+/// from the number of incident triangles. Sorted, each once. On a manifold patch these are the ends of the
+/// boundary edges.
 std::vector<Index> valence_boundary_vertices(std::span<const Triangle> triangles);
 
 }  // namespace meshcontour

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cassert>
+#include <cstdlib>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "meshcontour/types.hpp"
+
+namespace meshcontour::detail {
+
+/// An array that starts as zeros without touching its pages, so that a sparse use of a large one costs
+/// little.
+template <class Number>
+class ZeroedArray {
+ public:
+  /// At least `size` elements. Growing zeroes everything.
+  void reserve(std::size_t size) {
+    if (size <= size_) return;
+    data_.reset();
+    size_ = 0;
+    data_.reset(static_cast<Number*>(std::calloc(size, sizeof(Number))));
+    if (!data_) throw std::bad_alloc();
+    size_ = size;
+  }
+
+  Number* data() { return data_.get(); }
+  Number& operator[](std::size_t i) {
+    assert(i < size_);
+    return data_.get()[i];
+  }
+
+ private:
+  struct Free {
+    void operator()(Number* p) const { std::free(p); }
+  };
+  std::unique_ptr<Number, Free> data_;
+  std::size_t size_ = 0;
+};
+
+/// Memory that one thread keeps from patch to patch. Cost a patch: the patch alone, however large its shell.
+struct Workspace {
+  ZeroedArray<std::uint64_t> sums;  ///< one a vertex of the shell; all zero between patches
+  ZeroedArray<Index> slots;         ///< one a vertex of the shell; a hint to be checked, so never reset
+};
+
+/// Hands out workspaces to the parts of a parallel loop; at most one a thread is made.
+class WorkspacePool {
+ public:
+  template <class Body>
+  void with(const Body& body) {
+    auto workspace = take();
+    body(*workspace);
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(workspace));
+  }
+
+ private:
+  std::unique_ptr<Workspace> take() {
+    const std::lock_guard lock(mutex_);
+    if (idle_.empty()) return std::make_unique<Workspace>();
+    auto workspace = std::move(idle_.back());
+    idle_.pop_back();
+    return workspace;
+  }
+
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Workspace>> idle_;
+};
+
+}  // namespace meshcontour::detail
