@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "meshcontour/model.hpp"
+#include "model/adjacency.hpp"
+
+namespace meshcontour::detail {
+
+/// One a side: 1 when its edge has exactly two triangles, whose planes meet at no more than the angle.
+std::vector<std::uint8_t> smooth_sides(const Shell& shell, const Adjacency& adjacency, double radians,
+                                       unsigned threads);
+
+}  // namespace meshcontour::detail
