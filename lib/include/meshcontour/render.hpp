@@ -12,19 +12,41 @@
 namespace meshcontour {
 
 /// What can be drawn, one on top of the other.
-enum class Layer { Mesh, Edges, Curves, Wireframe, Points, Control, Annotations };
+enum class Layer {
+  Mesh,         ///< lit triangles
+  Edges,        ///< boundary edges of the patches
+  Curves,       ///< fitted contours, and the curves that the model itself gives
+  Wireframe,    ///< all triangle edges
+  Points,       ///< boundary vertices
+  Control,      ///< control polygons, control points and knots of the fitted contours
+  Annotations,  ///< line drawings that come with the model
+};
 
+/// From where the model is seen. Z is up. Front looks along +Y with X to the right, right looks along -X with
+/// Y to the right, top looks along -Z with X to the right and Y up; back, left and bottom are their
+/// opposites, bottom with X to the right. Iso looks from (1, -1, 1): front, right and top at once. These are
+/// orthographic and fit the model to the picture; Report is the fixed perspective of the report's figures, in
+/// model units, in its colours.
 enum class View { Iso, Front, Back, Left, Right, Top, Bottom, Report };
-enum class ColorBy { File, Patch, Layer, Type };
+
+/// What a colour tells.
+enum class ColorBy {
+  File,   ///< the colours of the file; edges and curves in one colour a layer
+  Patch,  ///< one colour a patch, from a palette that repeats after 21
+  Layer,  ///< one colour a layer
+  Type,   ///< one colour a kind of segment: line, arc, circle, ellipse, spline; the rest grey
+};
+
 enum class GlBackend { Automatic, OSMesa, Egl };
 
 struct RenderOptions {
-  int width = 1280, height = 960;  ///< pixels, 1 to 16384
+  int width = 1280, height = 960;                                          ///< pixels, 1 to 16384
   std::vector<Layer> layers = {Layer::Mesh, Layer::Edges, Layer::Curves};  ///< drawn in this order
   View view = View::Iso;
   std::optional<Rgba> background = Rgba{255, 255, 255, 255};  ///< none: transparent
   ColorBy color_by = ColorBy::File;
-  GlBackend backend = GlBackend::Automatic;
+  GlBackend backend = GlBackend::Automatic;  ///< Automatic: OSMesa, or EGL where that is missing
+  unsigned threads = 0;  ///< 0: one per processor; for the rasterizer the process's first call rules
 };
 
 /// Pixels with straight alpha, top row first, 4 bytes a pixel.
@@ -35,10 +57,24 @@ struct Image {
 
 /// Draws a model off screen with a software rasterizer, no display needed. Loads the rasterizer on first use.
 ///
+/// Every picture is drawn at twice its size and averaged. Colours are opaque: the alpha of patches is not
+/// used. A picture in which nothing shows gets a warning in `diagnostics` that says why.
+///
 /// @param boundaries, contours  may be empty when no layer needs them.
-/// @throws Error  Usage if the size is out of range; NoRenderer if no context can be made or its self-test fails;
-///                OutOfMemory if the rasterizer runs out of memory.
+/// @throws Error  Usage if the size is out of range; NoRenderer if no context can be made or its self-test
+/// fails;
+///                OutOfMemory if the picture needs more memory than there is, or the rasterizer runs out of
+///                it; BadData if the model is too large for numbers (beyond 1e150).
 Image render(const Model& model, std::span<const ShellBoundary> boundaries, std::span<const Contour> contours,
-             const RenderOptions& options = {});
+             const RenderOptions& options, std::vector<Diagnostic>& diagnostics);
+
+/// The axes of a view in model coordinates: rows are the picture's right, its up, and towards the viewer.
+Eigen::Matrix3d view_axes(View view);
+
+/// The palette of ColorBy::Patch; any index.
+Rgba patch_color(std::size_t patch);
+
+/// The palette of ColorBy::Type.
+Rgba type_color(const Curve& curve);
 
 }  // namespace meshcontour

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "meshcontour/curve.hpp"
+
+namespace meshcontour::detail {
+
+/// A curve as consecutive Bezier pieces: piece i has the control points degree * i to degree * (i + 1).
+struct BezierCurve {
+  int degree = 3;
+  std::vector<Eigen::Vector4d> control;  ///< (w x, w y, w z, w)
+  bool rational = false;
+
+  std::size_t pieces() const {
+    return control.empty() ? 0 : (control.size() - 1) / static_cast<std::size_t>(degree);
+  }
+};
+
+/// The pieces of a B-spline, one a knot span that is not empty, exact: their control points are values of the
+/// span's polar form [Ramshaw 1989], so that any knots will do, clamped or not.
+BezierCurve to_bezier(const BSplineCurve& curve);
+
+/// Chords that keep within `tolerance` of a piece, from its second differences [Wang 1984]; for rational
+/// pieces the differences of the projected points, times the square of the ratio of the weights. 1 to 1024.
+int chords(const BezierCurve& curve, std::size_t piece, double tolerance);
+
+}  // namespace meshcontour::detail

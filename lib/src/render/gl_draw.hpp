@@ -1,0 +1,30 @@
+#pragma once
+
+// The only user of OpenGL: a scene into an image, through framebuffer objects of our own.
+
+#include "render/gl_api.hpp"
+#include "render/gl_nurbs.hpp"
+
+namespace meshcontour::detail {
+
+/// OpenGL has run out of memory.
+struct GlOutOfMemory : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// OpenGL reports an error that should not be, or what is read back is not what was drawn.
+struct GlFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Checks that the current context draws: its name is known and a cleared pixel reads back.
+///
+/// @throws GlFailure
+void test_context();
+
+/// Draws at twice the size, in tiles where that is larger than `largest_tile`, and averages.
+///
+/// @throws GlOutOfMemory, GlFailure, NurbsFailure
+void draw_scene(const Scene& scene, int largest_tile, NurbsTessellator& tessellator, Image& image);
+
+}  // namespace meshcontour::detail

@@ -1,0 +1,207 @@
+#include "render/layers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "meshcontour/parallel.hpp"
+#include "render/normals.hpp"
+
+namespace meshcontour::detail {
+namespace {
+
+constexpr std::size_t kGrain = 8192;
+constexpr Rgba kWhite{255, 255, 255, 255}, kBlack{0, 0, 0, 255};
+
+bool placed(const Drawing& drawing, std::size_t frame) {
+  return drawing.magnification[frame] > 0;
+}
+
+Rgba face_color(const Drawing& drawing, std::size_t shell, std::size_t patch) {
+  switch (drawing.options.color_by) {
+    case ColorBy::Patch:
+      return mixed(patch_color(drawing.first_patch[shell] + patch), kWhite, 0.25);
+    case ColorBy::File:
+      if (drawing.options.view != View::Report) {
+        Rgba color = drawing.model.shells[shell].patches[patch].color;
+        color.alpha = 255;
+        return color;
+      }
+      [[fallthrough]];
+    default:
+      return drawing.palette.mesh;
+  }
+}
+
+LitVertex lit_vertex(const LocalFrame& frame, const Point& p, const Eigen::Vector3f& normal,
+                     const Rgba& color) {
+  const Eigen::Vector3f local = frame.local(p);
+  const auto fixed = [&](int i) {
+    return static_cast<std::int16_t>(std::lround(32767 * std::clamp(normal[i], -1.F, 1.F)));
+  };
+  return {{local.x(), local.y(), local.z()}, {fixed(0), fixed(1), fixed(2), 0}, color};
+}
+
+void add_mesh(const Drawing& drawing, Scene& scene) {
+  for (std::size_t s = 0; s < drawing.model.shells.size(); ++s) {
+    const Shell& shell = drawing.model.shells[s];
+    if (!placed(drawing, s) || shell.triangles.empty()) continue;
+    Batch batch = make_batch(drawing, Batch::Kind::Triangles, s, 0);
+    batch.bias = 0;
+    batch.corners.resize(3 * shell.triangles.size());
+    const auto normals = lighting_normals(shell, drawing.options.threads);
+    for (std::size_t p = 0; p < shell.patches.size(); ++p) {
+      const Rgba color = face_color(drawing, s, p);
+      const Patch& patch = shell.patches[p];
+      parallel_for(
+          patch.triangle_count, kGrain, drawing.options.threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t t = patch.first_triangle + begin; t < patch.first_triangle + end; ++t) {
+              for (std::size_t c = 0; c < 3; ++c) {
+                const Point& corner = shell.points[shell.triangles[t][c]];
+                batch.corners[3 * t + c] = lit_vertex(drawing.frames[s], corner, normals[3 * t + c], color);
+              }
+            }
+          });
+    }
+    append(scene, std::move(batch));
+  }
+}
+
+using Edge = std::array<Index, 2>;
+
+// Each edge once, whichever way it runs.
+void make_unique(std::vector<Edge>& edges) {
+  for (Edge& edge : edges) std::ranges::sort(edge);
+  std::ranges::sort(edges);
+  const auto repeated = std::ranges::unique(edges);
+  edges.erase(repeated.begin(), repeated.end());
+}
+
+void add_edge_lines(const Shell& shell, const LocalFrame& frame, const std::vector<Edge>& edges,
+                    const Rgba& color, Batch& batch) {
+  for (const Edge& edge : edges) {
+    for (const Index v : edge) batch.vertices.push_back(flat_vertex(frame, shell.points[v], color));
+  }
+}
+
+// Edges that two patches share are drawn once, unless each patch has a colour of its own.
+void add_edges(const Drawing& drawing, Scene& scene) {
+  const bool by_patch = drawing.options.color_by == ColorBy::Patch;
+  for (std::size_t s = 0; s < drawing.boundaries.size(); ++s) {
+    if (!placed(drawing, s)) continue;
+    const Shell& shell = drawing.model.shells[s];
+    Batch batch = make_batch(drawing, Batch::Kind::Lines, s, 1.2F);
+    std::vector<Edge> edges;
+    const auto& patches = drawing.boundaries[s].patches;
+    for (std::size_t p = 0; p < patches.size(); ++p) {
+      for (const BoundaryEdge& edge : patches[p].edges) edges.push_back({edge.from, edge.to});
+      if (by_patch) {
+        add_edge_lines(shell, drawing.frames[s], edges, patch_line_color(drawing, s, p), batch);
+        edges.clear();
+      }
+    }
+    make_unique(edges);
+    add_edge_lines(shell, drawing.frames[s], edges, drawing.palette.edges, batch);
+    append(scene, std::move(batch));
+  }
+}
+
+void add_wireframe(const Drawing& drawing, Scene& scene) {
+  for (std::size_t s = 0; s < drawing.model.shells.size(); ++s) {
+    if (!placed(drawing, s)) continue;
+    const Shell& shell = drawing.model.shells[s];
+    std::vector<std::vector<Edge>> edges(shell.patches.size());
+    parallel_for(edges.size(), 16, drawing.options.threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t p = begin; p < end; ++p) {
+        for (const Triangle& t : shell.patch_triangles(p)) {
+          for (std::size_t c = 0; c < 3; ++c) edges[p].push_back({t[c], t[(c + 1) % 3]});
+        }
+        make_unique(edges[p]);
+      }
+    });
+    Batch batch = make_batch(drawing, Batch::Kind::Lines, s, 0.8F);
+    const bool by_patch = drawing.options.color_by == ColorBy::Patch;
+    for (std::size_t p = 0; p < edges.size(); ++p) {
+      const Rgba color = by_patch ? patch_line_color(drawing, s, p) : drawing.palette.wireframe;
+      add_edge_lines(shell, drawing.frames[s], edges[p], color, batch);
+    }
+    append(scene, std::move(batch));
+  }
+}
+
+void add_points(const Drawing& drawing, Scene& scene) {
+  for (std::size_t s = 0; s < drawing.boundaries.size(); ++s) {
+    if (!placed(drawing, s)) continue;
+    const Shell& shell = drawing.model.shells[s];
+    std::vector<bool> done(shell.points.size(), false);
+    Batch batch = make_batch(drawing, Batch::Kind::Points, s, 5);
+    for (const PatchBoundary& patch : drawing.boundaries[s].patches) {
+      for (const BoundaryEdge& edge : patch.edges) {
+        for (const Index v : {edge.from, edge.to}) {
+          if (done[v]) continue;
+          done[v] = true;
+          batch.vertices.push_back(flat_vertex(drawing.frames[s], shell.points[v], drawing.palette.points));
+        }
+      }
+    }
+    append(scene, std::move(batch));
+  }
+}
+
+void add_annotations(const Drawing& drawing, Scene& scene) {
+  const std::size_t frame = drawing.frames.size() - 1;
+  Batch batch = make_batch(drawing, Batch::Kind::Lines, frame, 1.4F);
+  for (const Polyline& line : drawing.model.annotations) {
+    for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
+      for (const std::size_t end : {i, i + 1}) {
+        batch.vertices.push_back(
+            flat_vertex(drawing.frames[frame], line.points[end], drawing.palette.annotations));
+      }
+    }
+  }
+  append(scene, std::move(batch));
+}
+
+struct LayerRow {
+  Layer layer;
+  void (*add)(const Drawing&, Scene&);
+};
+
+constexpr std::array<LayerRow, 5> kLayers = {{{Layer::Mesh, add_mesh},
+                                              {Layer::Edges, add_edges},
+                                              {Layer::Wireframe, add_wireframe},
+                                              {Layer::Points, add_points},
+                                              {Layer::Annotations, add_annotations}}};
+
+}  // namespace
+
+Batch make_batch(const Drawing& drawing, Batch::Kind kind, std::size_t frame, float size) {
+  Batch batch;
+  batch.kind = kind;
+  batch.frame = frame;
+  batch.size = size * drawing.line_scale;
+  batch.bias = drawing.bias;
+  return batch;
+}
+
+void append(Scene& scene, Batch&& batch) {
+  if (!batch.corners.empty() || !batch.vertices.empty() || !batch.runs.empty()) {
+    scene.batches.push_back(std::move(batch));
+  }
+}
+
+FlatVertex flat_vertex(const LocalFrame& frame, const Point& p, const Rgba& color) {
+  const Eigen::Vector3f local = frame.local(p);
+  return {{local.x(), local.y(), local.z()}, color};
+}
+
+Rgba patch_line_color(const Drawing& drawing, std::size_t shell, std::size_t patch) {
+  return mixed(patch_color(drawing.first_patch[shell] + patch), kBlack, 0.4);
+}
+
+void add_layer(const Drawing& drawing, Layer layer, Scene& scene) {
+  const auto row = std::ranges::find(kLayers, layer, &LayerRow::layer);
+  if (row != kLayers.end()) row->add(drawing, scene);
+}
+
+}  // namespace meshcontour::detail

@@ -1,0 +1,54 @@
+#include "write/png.hpp"
+
+#include "support/catch.hpp"
+
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#include <stb/stb_image.h>
+#pragma GCC diagnostic pop
+
+using namespace meshcontour;
+
+namespace {
+
+Image noise(int width, int height, bool opaque) {
+  Image image{width, height, std::vector<std::uint8_t>(4 * std::size_t(width) * std::size_t(height))};
+  std::uint32_t state = 1;
+  for (std::uint8_t& byte : image.rgba) {
+    state = state * 1664525U + 1013904223U;
+    byte = std::uint8_t(state >> 24);
+  }
+  for (std::size_t i = 3; opaque && i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+  return image;
+}
+
+}  // namespace
+
+TEST_CASE("encode_png: an independent decoder gives the image back", "[write]") {
+  const bool opaque = GENERATE(true, false);
+  const int width = GENERATE(1, 2, 17, 256), height = GENERATE(1, 3, 64);
+  const Image image = noise(width, height, opaque);
+  const auto png = encode_png(image);
+  int w = 0, h = 0, channels = 0;
+  stbi_uc* pixels = stbi_load_from_memory(png.data(), int(png.size()), &w, &h, &channels, 4);
+  REQUIRE(pixels != nullptr);
+  CHECK(w == width);
+  CHECK(h == height);
+  CHECK(channels == (opaque ? 3 : 4));
+  CHECK(std::equal(image.rgba.begin(), image.rgba.end(), pixels));
+  stbi_image_free(pixels);
+}
+
+TEST_CASE("encode_png: the same image gives the same bytes", "[write]") {
+  CHECK(encode_png(noise(64, 48, true)) == encode_png(noise(64, 48, true)));
+}
+
+TEST_CASE("encode_png: an image whose sizes do not match is refused", "[write][error]") {
+  Image image = noise(4, 4, true);
+  image.rgba.pop_back();
+  CHECK_THROWS_AS(encode_png(image), Error);
+  CHECK_THROWS_AS(encode_png(Image{}), Error);
+}
