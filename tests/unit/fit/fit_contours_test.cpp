@@ -1,0 +1,125 @@
+#include <limits>
+#include <numbers>
+
+#include "meshcontour/fit.hpp"
+#include "support/catch.hpp"
+
+using namespace meshcontour;
+
+namespace {
+
+// A model of loops only: what fit_contours reads of it.
+struct Loops {
+  Model model;
+  std::vector<ShellBoundary> boundaries;
+
+  Loops() : model(), boundaries(1) {
+    model.shells.emplace_back();
+    model.shells[0].id = "part";
+  }
+
+  void add(const std::vector<Point>& points, bool closed = true) {
+    Shell& shell = model.shells[0];
+    BoundaryLoop loop;
+    loop.closed = closed;
+    for (const Point& p : points) {
+      loop.vertices.push_back(static_cast<Index>(shell.points.size()));
+      shell.points.push_back(p);
+    }
+    PatchBoundary patch;
+    patch.loops = {loop};
+    boundaries[0].patches.push_back(patch);
+  }
+
+  std::vector<Contour> fit(FitMethod method, std::vector<Diagnostic>& diagnostics,
+                           unsigned threads = 1) const {
+    FitOptions options;
+    options.method = method;
+    options.threads = threads;
+    return fit_contours(model, boundaries, options, diagnostics);
+  }
+};
+
+std::vector<Point> circle(int n, double radius, const Point& center = Point::Zero()) {
+  std::vector<Point> points;
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * i / n;
+    points.push_back(center + radius * Vector(std::cos(angle), std::sin(angle), 0));
+  }
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("fit_contours: one contour a loop, in order, whatever the threads", "[fit]") {
+  Loops loops;
+  for (int i = 0; i < 40; ++i) loops.add(circle(3 + i, 1 + i), i % 5 != 0);
+  const FitMethod method = GENERATE(FitMethod::Control, FitMethod::Interpolate);
+  std::vector<Diagnostic> diagnostics;
+  const auto contours = loops.fit(method, diagnostics);
+  const auto parallel = loops.fit(method, diagnostics, 4);
+  REQUIRE(contours.size() == 40);
+  CHECK(diagnostics.empty());
+  for (std::size_t i = 0; i < 40; ++i) {
+    CHECK(contours[i].patch == i);
+    CHECK(contours[i].closed == (i % 5 != 0));
+    CHECK_FALSE(contours[i].fallback);
+    REQUIRE(contours[i].segments.size() == 1);
+    const Segment& segment = contours[i].segments[0];
+    CHECK(segment.from == loops.boundaries[0].patches[i].loops[0].vertices.front());
+    CHECK((segment.from == segment.to) == contours[i].closed);
+    CHECK(contours[i].deviation > 0);
+    CHECK(contours[i].deviation == parallel[i].deviation);
+    CHECK(std::get<BSplineCurve>(segment.curve).control_points ==
+          std::get<BSplineCurve>(parallel[i].segments[0].curve).control_points);
+  }
+}
+
+TEST_CASE("fit_contours: repeated points change nothing", "[fit]") {
+  const std::vector<Point> points = circle(12, 5);
+  std::vector<Point> repeated;
+  for (const Point& p : points) repeated.insert(repeated.end(), {p, p});
+  repeated.push_back(points.front());
+  Loops loops;
+  loops.add(points);
+  loops.add(repeated);
+  std::vector<Diagnostic> diagnostics;
+  const auto contours = loops.fit(FitMethod::Interpolate, diagnostics);
+  CHECK(std::get<BSplineCurve>(contours[0].segments[0].curve).control_points ==
+        std::get<BSplineCurve>(contours[1].segments[0].curve).control_points);
+}
+
+TEST_CASE("fit_contours: what cannot be fitted is its polygon, and said so", "[fit][error]") {
+  Loops loops;
+  loops.add(circle(8, 1));
+  loops.add({{1, 2, 3}, {1, 2, 3}, {1, 2, 3}});
+  loops.add({{0, 0, 0}, {1, 0, 0}, {1, 1e-12, 0}});
+  loops.add(circle(5, 1e200));
+  loops.add({{-1e308, -1e308, 0}, {1e308, 1e308, 0}, {0, 1e308, 0}});
+  const FitMethod method = GENERATE(FitMethod::Control, FitMethod::Interpolate);
+  std::vector<Diagnostic> diagnostics;
+  const auto contours = loops.fit(method, diagnostics);
+  CHECK_FALSE(contours[0].fallback);
+  CHECK(contours[1].fallback);
+  CHECK(contours[1].segments.size() == 1);
+  CHECK(contours[2].segments.size() == 2);
+  CHECK(std::get<LineSegment>(contours[2].segments[0].curve).end == Point(1, 0, 0));
+  CHECK(contours[3].segments.size() == 5);
+  CHECK(contours[4].fallback);
+  REQUIRE(diagnostics.size() == 2);
+  CHECK(diagnostics[0].count == 2);
+  CHECK(diagnostics[0].text().find("shell part, patch 2, loop 1") != std::string::npos);
+  CHECK(diagnostics[1].count == 2);
+}
+
+TEST_CASE("fit_contours: options out of range are refused", "[fit][error]") {
+  const Loops loops;
+  std::vector<Diagnostic> diagnostics;
+  FitOptions options;
+  options.tolerance =
+      GENERATE(-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity());
+  CHECK_THROWS_AS(fit_contours(loops.model, loops.boundaries, options, diagnostics), Error);
+  options.tolerance = 0;
+  options.corner_angle = GENERATE(0.0, -1.0, 4.0);
+  CHECK_THROWS_AS(fit_contours(loops.model, loops.boundaries, options, diagnostics), Error);
+}
