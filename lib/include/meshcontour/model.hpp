@@ -49,10 +49,17 @@ struct Polyline {
   std::vector<Point> points;
 };
 
+/// A point of a curve with a right-handed frame: (normal, binormal, tangent) are of length 1 and perpendicular.
+struct CurveFrame {
+  Point position = Point::Zero();
+  Vector tangent = Vector::UnitZ(), normal = Vector::UnitX(), binormal = Vector::UnitY();
+};
+
 /// A curve that the file itself gives, already placed in the model frame. It is drawn and exported as it is.
 struct NamedCurve {
   std::string name;
   Curve curve;
+  std::vector<CurveFrame> frames;  ///< at the samples that the file asks for, along the curve; may be empty
 };
 
 /// Everything that a file says. Shells are stored once however often they are placed.
@@ -70,7 +77,7 @@ struct Model {
 /// The box of the points that a triangle uses, in the shell's frame; empty for a shell without triangles.
 Box bounding_box(const Shell& shell);
 
-/// The box of all instances and annotations, in the model's frame.
+/// The box of all instances, annotations and curves (these by points, sixteen a span), in the model's frame.
 Box bounding_box(const Model& model);
 
 /// Checks what every stage relies on: indices in range, points finite, patches a partition of the triangles,

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "meshcontour/model.hpp"
+#include "meshcontour/sweep.hpp"
 
 namespace meshcontour {
 
@@ -14,6 +15,7 @@ struct ReadOptions {
   std::uint64_t max_instances = 1'000'000;
   bool strict = false;  ///< anything that would be mended with a warning is an error
   unsigned threads = 0; ///< 0: one per processor
+  SweepOptions sweep;   ///< of files that describe sweeps; the limit and the threads above rule there too
 };
 
 /// Reads a file; the format follows its content, with the extension as a hint.

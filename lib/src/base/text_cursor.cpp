@@ -48,25 +48,29 @@ std::optional<double> parse_number(std::string_view word) {
   return word.front() == '-' ? -0.0 : 0.0;
 }
 
-std::size_t LineCounter::line(std::size_t offset) {
+void LineCounter::count_to(std::size_t offset) {
   offset = std::min(offset, text_.size());
   if (offset < counted_) {
-    counted_ = 0;
+    counted_ = line_start_ = 0;
     line_ = 1;
   }
   for (; counted_ < offset; ++counted_) {
     const char c = text_[counted_];
     const bool crlf = c == '\r' && counted_ + 1 < text_.size() && text_[counted_ + 1] == '\n';
-    if (is_line_end(c) && !crlf) ++line_;
+    if (!is_line_end(c) || crlf) continue;
+    ++line_;
+    line_start_ = counted_ + 1;
   }
+}
+
+std::size_t LineCounter::line(std::size_t offset) {
+  count_to(offset);
   return line_;
 }
 
-std::size_t LineCounter::column(std::size_t offset) const {
-  std::size_t start = std::min(offset, text_.size());
-  const std::size_t end = start;
-  while (start > 0 && !is_line_end(text_[start - 1])) --start;
-  return end - start + 1;
+std::size_t LineCounter::column(std::size_t offset) {
+  count_to(offset);
+  return counted_ - line_start_ + 1;
 }
 
 TextCursor::TextCursor(std::string_view text, std::string name, char comment)

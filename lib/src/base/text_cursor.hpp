@@ -31,12 +31,15 @@ class LineCounter {
  public:
   explicit LineCounter(std::string_view text) : text_(text) {}
   std::size_t line(std::size_t offset);
-  std::size_t column(std::size_t offset) const;  ///< from 1, in bytes
+  std::size_t column(std::size_t offset);  ///< from 1, in bytes
 
  private:
+  void count_to(std::size_t offset);
+
   std::string_view text_;
   std::size_t counted_ = 0;
   std::size_t line_ = 1;
+  std::size_t line_start_ = 0;
 };
 
 /// Reads words and numbers one after the other; every failure names file, line and column.

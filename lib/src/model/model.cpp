@@ -13,7 +13,8 @@ void require(bool holds, const Shell& shell, std::string_view what) {
 
 void validate(const Shell& shell) {
   const auto in_range = [&](const Triangle& t) { return std::ranges::max(t) < shell.points.size(); };
-  require(std::ranges::all_of(shell.triangles, in_range), shell, "a triangle names a point that does not exist");
+  require(std::ranges::all_of(shell.triangles, in_range), shell,
+          "a triangle names a point that does not exist");
   const auto finite = [](const Point& p) { return p.allFinite(); };
   require(std::ranges::all_of(shell.points, finite), shell, "a point is not finite");
   require(shell.corner_normals.empty() || shell.corner_normals.size() == 3 * shell.triangles.size(), shell,
@@ -24,6 +25,19 @@ void validate(const Shell& shell) {
     next += patch.triangle_count;
   }
   require(next == shell.triangles.size(), shell, "the patches are not a partition of the triangles");
+}
+
+// Points of the curve, a sixteenth of a span apart.
+void extend(Box& box, const Curve& curve) {
+  constexpr int kParts = 16;
+  const BSplineCurve spline = to_clamped_bspline(curve);
+  const auto& knots = spline.knots;
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+    if (knots[i] == knots[i + 1]) continue;
+    for (int k = 0; k <= kParts; ++k) {
+      box.extend(evaluate(spline, knots[i] + (knots[i + 1] - knots[i]) * k / kParts));
+    }
+  }
 }
 
 }  // namespace
@@ -50,6 +64,7 @@ Box bounding_box(const Model& model) {
   for (const Polyline& line : model.annotations) {
     for (const Point& p : line.points) box.extend(p);
   }
+  for (const NamedCurve& named : model.curves) extend(box, named.curve);
   return box;
 }
 

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "read/swp.hpp"
+
 namespace meshcontour::detail {
 namespace {
 
@@ -58,7 +60,9 @@ const Format& detect_format(std::string_view head, std::uint64_t size, std::stri
 }
 
 std::span<const Format> formats() {
-  static const std::vector<Format> table = {};
+  static const std::vector<Format> table = {
+      {"swept surfaces", {"swp"}, sniff_swp, read_swp},
+  };
   return table;
 }
 
