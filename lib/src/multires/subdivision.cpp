@@ -1,0 +1,67 @@
+#include "meshcontour/subdivision.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "multires/level.hpp"
+#include "multires/predict.hpp"
+
+namespace meshcontour {
+namespace {
+
+using detail::MeshLevel;
+
+std::vector<std::size_t> patch_of_triangles(const Shell& shell) {
+  std::vector<std::size_t> patches(shell.triangles.size());
+  for (std::size_t p = 0; p < shell.patches.size(); ++p) {
+    const Patch& patch = shell.patches[p];
+    std::fill_n(patches.begin() + static_cast<std::ptrdiff_t>(patch.first_triangle), patch.triangle_count, p);
+  }
+  return patches;
+}
+
+MeshLevel level_of(const Shell& shell, bool creases) {
+  const std::vector<std::size_t> patches = patch_of_triangles(shell);
+  return detail::make_level(shell.triangles, static_cast<Index>(shell.points.size()),
+                            [&](std::size_t f, std::size_t g) { return creases && patches[f] != patches[g]; });
+}
+
+// Corner normals of the children, the new ones half way between their parent's corners.
+std::vector<Vector> refined_normals(const std::vector<Vector>& normals) {
+  std::vector<Vector> out;
+  out.reserve(4 * normals.size());
+  const auto between = [](const Vector& a, const Vector& b) -> Vector { return (a + b).stableNormalized(); };
+  for (std::size_t i = 0; i + 2 < normals.size(); i += 3) {
+    const Vector &a = normals[i], &b = normals[i + 1], &c = normals[i + 2];
+    const Vector p = between(a, b), q = between(b, c), r = between(c, a);
+    for (const Vector& n : {a, p, r, p, b, q, r, q, c, p, q, r}) out.push_back(n);
+  }
+  return out;
+}
+
+}  // namespace
+
+Shell subdivided(const Shell& shell, unsigned levels, const SubdivisionOptions& options) {
+  Shell fine = shell;
+  if (levels == 0) return fine;
+  MeshLevel level = level_of(shell, options.creases);
+  for (unsigned step = 0; step < levels; ++step) {
+    if (fine.points.size() + level.edge_count() > std::numeric_limits<Index>::max() / 6) {
+      throw Error(ErrorCode::Usage, fmt::format("shell {}: {} subdivisions give too many points",
+                                                printable(shell.id), levels));
+    }
+    fine.points.resize(level.vertex_count + level.edge_count(), Point::Zero());
+    detail::add_prediction(level, options, 1, fine.points);
+    level = detail::quadrisected(level);
+    fine.corner_normals = refined_normals(fine.corner_normals);
+    for (Patch& patch : fine.patches) {
+      patch.first_triangle *= 4;
+      patch.triangle_count *= 4;
+    }
+  }
+  fine.triangles = std::move(level.triangles);
+  return fine;
+}
+
+}  // namespace meshcontour
