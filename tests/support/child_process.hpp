@@ -19,10 +19,18 @@
 
 /// Starts the function in a child; it ends with the function's value, with an Error's code, or with 99.
 inline pid_t start_child(const std::function<int()>& body) {
+  // No signal before the child has dropped the handlers of the test framework, which would take locks of the
+  // parent.
+  sigset_t all, before;
+  sigfillset(&all);
+  sigprocmask(SIG_SETMASK, &all, &before);
   const pid_t child = fork();
+  if (child == 0) {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGABRT, SIGSEGV}) std::signal(number, SIG_DFL);
+  }
+  sigprocmask(SIG_SETMASK, &before, nullptr);
   if (child < 0) throw std::runtime_error("no child process");
   if (child > 0) return child;
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGABRT, SIGSEGV}) std::signal(number, SIG_DFL);
   try {
     _exit(body());
   } catch (const meshcontour::Error& error) {
@@ -44,8 +52,8 @@ inline int in_child(const std::function<int()>& body) {
   return wait_for(start_child(body));
 }
 
-/// Makes a system call fail from now on, in this process; with a mask only where an argument has one of its bits.
-/// False where the kernel does not let us.
+/// Makes a system call fail from now on, in this process; with a mask only where an argument has one of its
+/// bits. False where the kernel does not let us.
 inline bool fail_system_call(int number, int error, unsigned argument = 0, unsigned mask = 0) {
   const auto offset = [](std::size_t bytes) { return static_cast<unsigned>(bytes); };
   const unsigned refusal = SECCOMP_RET_ERRNO | (static_cast<unsigned>(error) & SECCOMP_RET_DATA);
@@ -59,5 +67,6 @@ inline bool fail_system_call(int number, int error, unsigned argument = 0, unsig
   }};
   if (mask == 0) filter[3] = BPF_STMT(BPF_RET | BPF_K, refusal);
   const sock_fprog program = {static_cast<unsigned short>(filter.size()), filter.data()};
-  return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
+  return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+         prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }

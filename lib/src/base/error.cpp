@@ -2,42 +2,24 @@
 
 #include <fmt/format.h>
 
+#include "base/utf8.hpp"
+
 namespace meshcontour {
-namespace {
-
-// Length of the valid UTF-8 sequence at the start of the text, 0 where there is none.
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned lead = byte(0);
-  if (lead < 0x80) return 1;
-  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-  }
-  const unsigned second = byte(1);
-  const bool overlong = (lead == 0xE0 && second < 0xA0) || (lead == 0xF0 && second < 0x90);
-  const bool outside = (lead == 0xED && second > 0x9F) || (lead == 0xF4 && second > 0x8F);
-  return overlong || outside ? 0 : length;
-}
-
-}  // namespace
-
 std::string printable(std::string_view text, std::size_t limit) {
   std::string out;
   while (!text.empty()) {
     if (out.size() >= limit) return out + "...";
-    const auto lead = static_cast<unsigned char>(text[0]);
-    const std::size_t length = utf8_length(text);
-    const bool c1_control = length == 2 && lead == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0;
-    if (lead < 0x20 || lead == 0x7F) {
-      out += fmt::format("\\x{:02x}", lead);
-    } else if (length == 0 || c1_control) {
+    bool valid = false;
+    const auto [code, length] = detail::decode_utf8(text, &valid);
+    const bool c1_control = code >= 0x80 && code < 0xA0;
+    if (code < 0x20 || code == 0x7F) {
+      out += fmt::format("\\x{:02x}", static_cast<unsigned>(code));
+    } else if (!valid || c1_control) {
       out += "\xEF\xBF\xBD";
     } else {
       out += text.substr(0, length);
     }
-    text.remove_prefix(length == 0 ? 1 : length);
+    text.remove_prefix(length);
   }
   return out;
 }

@@ -17,15 +17,16 @@ namespace fs = std::filesystem;
 constexpr std::size_t kBufferSize = std::size_t{1} << 18;
 constexpr int kMostLinks = 40;  // as the kernel follows
 
-// The descriptor that a name like "-" or /dev/fd/3 stands for. Opening such a name again would start at the beginning
-// of the file behind it, or replace that file.
+// The descriptor that a name like "-" or /dev/fd/3 stands for. Opening such a name again would start at the
+// beginning of the file behind it, or replace that file.
 std::optional<int> named_descriptor(const std::string& path) {
   if (path == "-" || path == "/dev/stdout") return STDOUT_FILENO;
   if (path == "/dev/stderr") return STDERR_FILENO;
   for (const std::string_view prefix : {"/dev/fd/", "/proc/self/fd/"}) {
     int number = -1;
     const char* end = path.data() + path.size();
-    if (path.starts_with(prefix) && std::from_chars(path.data() + prefix.size(), end, number).ptr == end) return number;
+    if (path.starts_with(prefix) && std::from_chars(path.data() + prefix.size(), end, number).ptr == end)
+      return number;
   }
   return std::nullopt;
 }
@@ -67,7 +68,8 @@ OutputFile::OutputFile(const fs::path& target) : shown_(target.string()) {
 OutputFile::~OutputFile() = default;
 
 void OutputFile::fail(ErrorCode code, const char* what, int error) const {
-  throw Error(code, fmt::format("{}: {}", what, std::generic_category().message(error)), Spot{shown_, 0, 0, ""});
+  throw Error(code, fmt::format("{}: {}", what, std::generic_category().message(error)),
+              Spot{shown_, 0, 0, ""});
 }
 
 bool OutputFile::open_special(const fs::path& target) {
@@ -90,9 +92,11 @@ void OutputFile::open_folder(const fs::path& target) {
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   const int flags = O_DIRECTORY | O_CLOEXEC;
   folder_ = detail::Descriptor(open(folder.c_str(), O_RDONLY | flags));
-  if (!folder_.is_open() && errno == EACCES) folder_ = detail::Descriptor(open(folder.c_str(), O_PATH | flags));
+  if (!folder_.is_open() && errno == EACCES)
+    folder_ = detail::Descriptor(open(folder.c_str(), O_PATH | flags));
   if (!folder_.is_open()) fail(ErrorCode::CannotCreate, "cannot open its folder", errno);
-  if (fstat(folder_.number(), &folder_status_) != 0) fail(ErrorCode::CannotCreate, "cannot open its folder", errno);
+  if (fstat(folder_.number(), &folder_status_) != 0)
+    fail(ErrorCode::CannotCreate, "cannot open its folder", errno);
   struct stat old = {};
   if (fstatat(folder_.number(), name_.c_str(), &old, 0) == 0) {
     old_ = old;
@@ -111,15 +115,18 @@ void OutputFile::create_temporary() {
   file_ = detail::Descriptor(openat(folder_.number(), ".", O_TMPFILE | flags, mode));
   anonymous_ = file_.is_open() && access(fmt::format("/proc/self/fd/{}", file_.number()).c_str(), F_OK) == 0;
   if (!anonymous_) {
-    if (!file_.is_open() && !lacks_anonymous_files(errno)) fail(ErrorCode::CannotCreate, "cannot create", errno);
-    file_ = detail::Descriptor(openat(folder_.number(), temporary_->name(), O_CREAT | O_EXCL | O_NOFOLLOW | flags, mode));
+    if (!file_.is_open() && !lacks_anonymous_files(errno))
+      fail(ErrorCode::CannotCreate, "cannot create", errno);
+    file_ = detail::Descriptor(
+        openat(folder_.number(), temporary_->name(), O_CREAT | O_EXCL | O_NOFOLLOW | flags, mode));
     if (!file_.is_open()) fail(ErrorCode::CannotCreate, "cannot create", errno);
     temporary_->created();
   }
   if (!old_) return;
   // Only root may give a file away; for others the new file is their own.
   [[maybe_unused]] const int ignored = fchown(file_.number(), old_->st_uid, old_->st_gid);
-  if (fchmod(file_.number(), old_->st_mode & 07777) != 0) fail(ErrorCode::CannotCreate, "cannot set permissions", errno);
+  if (fchmod(file_.number(), old_->st_mode & 07777) != 0)
+    fail(ErrorCode::CannotCreate, "cannot set permissions", errno);
 }
 
 void OutputFile::write(std::string_view bytes) {
@@ -187,7 +194,8 @@ void OutputFile::settle() {
   if (in_place()) return;
   temporary_.reset();
   // Some file systems cannot sync a folder, and a folder that may not be read cannot be either.
-  if (fsync(folder_.number()) != 0 && errno == EIO) fail(ErrorCode::InputOutput, "cannot sync its folder", errno);
+  if (fsync(folder_.number()) != 0 && errno == EIO)
+    fail(ErrorCode::InputOutput, "cannot sync its folder", errno);
   if (!file_.close()) fail(ErrorCode::InputOutput, "cannot write", errno);
 }
 

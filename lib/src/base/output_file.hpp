@@ -34,9 +34,9 @@ class Descriptor {
 
 }  // namespace detail
 
-/// One output file: an anonymous file in the target's folder until it is complete (a named one where the file system
-/// has no anonymous files), or a special file that is written in place. The steps of a commit are apart, so that a set
-/// can do each for all its files before the next.
+/// One output file: an anonymous file in the target's folder until it is complete (a named one where the file
+/// system has no anonymous files), or a special file that is written in place. The steps of a commit are
+/// apart, so that a set can do each for all its files before the next.
 class OutputFile final : public Sink {
  public:
   /// @throws Error   CannotCreate.
@@ -73,14 +73,14 @@ class OutputFile final : public Sink {
   std::string shown_;          // the target as the caller wrote it, for messages
   detail::Descriptor folder_;  // closed for files written in place
   struct stat folder_status_ = {};
-  std::string name_;           // in the folder, symbolic links followed
+  std::string name_;  // in the folder, symbolic links followed
   std::optional<struct stat> old_;
   detail::Descriptor file_;
   std::string buffer_;
   bool anonymous_ = false;
   bool placed_ = false;
-  bool exchanged_ = false;                       // the temporary's name holds the old content
-  std::optional<detail::Temporary> temporary_;   // after folder_: it goes first
+  bool exchanged_ = false;                      // the temporary's name holds the old content
+  std::optional<detail::Temporary> temporary_;  // after folder_: it goes first
 };
 
 }  // namespace meshcontour

@@ -18,7 +18,8 @@ Sink& OutputSet::open(const std::filesystem::path& target) {
 }
 
 void OutputSet::commit() {
-  // What is written in place cannot be taken back, so it must not be the reason for a renamed file to be lost.
+  // What is written in place cannot be taken back, so it must not be the reason for a renamed file to be
+  // lost.
   for (const auto& file : files_) {
     if (file->in_place()) file->finish();
   }

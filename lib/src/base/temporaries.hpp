@@ -6,8 +6,9 @@ namespace meshcontour::detail {
 
 struct TemporarySlot;
 
-/// An unpredictable file name in a folder, removed from there when this object ends, or when a signal ends the process.
-/// It is registered before the file exists, so that there is no moment in which the file could be left behind.
+/// An unpredictable file name in a folder, removed from there when this object ends, or when a signal ends
+/// the process. It is registered before the file exists, so that there is no moment in which the file could
+/// be left behind.
 class Temporary {
  public:
   /// @param folder  descriptor of an open folder that outlives this object.
@@ -18,7 +19,8 @@ class Temporary {
 
   const char* name() const;
 
-  /// Call after the file has been created: a signal handler in another thread may have looked for it just before.
+  /// Call after the file has been created: a signal handler in another thread may have looked for it just
+  /// before.
   void created() const;
 
  private:

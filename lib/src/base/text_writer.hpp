@@ -10,8 +10,8 @@
 
 namespace meshcontour::detail {
 
-/// Formats text into a sink in large pieces. Numbers are printed as the shortest text that reads back the same,
-/// whatever the locale. Call flush() at the end.
+/// Formats text into a sink in large pieces. Numbers are printed as the shortest text that reads back the
+/// same, whatever the locale. Call flush() at the end.
 class TextWriter {
  public:
   explicit TextWriter(Sink& sink) : sink_(sink) {}

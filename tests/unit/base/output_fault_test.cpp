@@ -44,7 +44,8 @@ TEST_CASE("OutputSet: works where the file system has no anonymous files", "[bas
   CHECK(file_text(folder / "a") == "new a");
 }
 
-TEST_CASE("OutputSet: whatever system call fails, the old files stay whole and nothing is left", "[base][output][error]") {
+TEST_CASE("OutputSet: whatever system call fails, the old files stay whole and nothing is left",
+          "[base][output][error]") {
   const bool anonymous = GENERATE(true, false);
   const int call = GENERATE(SYS_write, SYS_fsync, SYS_linkat, SYS_renameat);
   const int error = GENERATE(EIO, ENOSPC, EACCES);
@@ -66,9 +67,8 @@ TEST_CASE("OutputSet: when the second rename fails the first is undone", "[base]
   const bool anonymous = GENERATE(true, false);
   const TemporaryFolder folder;
   write_file(folder / "a", "old");
-  const int code = in_child([&] {
-    return replace_pair(folder, anonymous, [&] { fs::create_directories(folder / "b/full"); });
-  });
+  const int code = in_child(
+      [&] { return replace_pair(folder, anonymous, [&] { fs::create_directories(folder / "b/full"); }); });
   CHECK(code == 74);
   CHECK(folder.names() == Names{"a", "b"});
   CHECK(file_text(folder / "a") == "old");

@@ -91,7 +91,8 @@ TEST_CASE("OutputSet: links are followed, also to a file that does not exist yet
   CHECK(file_text(folder / "there/b") == "BBB");
 }
 
-TEST_CASE("OutputSet: a target that cannot be created is refused at once, with the reason", "[base][output][error]") {
+TEST_CASE("OutputSet: a target that cannot be created is refused at once, with the reason",
+          "[base][output][error]") {
   const TemporaryFolder folder;
   write_file(folder / "file", "");
   fs::create_symlink("loop", folder / "loop");
@@ -188,7 +189,8 @@ TEST_CASE("OutputSet: closed ends of standard output are errors, not signals", "
   }
 }
 
-TEST_CASE("OutputSet: a file size limit is an error of the write and leaves nothing", "[base][output][error]") {
+TEST_CASE("OutputSet: a file size limit is an error of the write and leaves nothing",
+          "[base][output][error]") {
   const TemporaryFolder folder;
   write_file(folder / "a", "old");
   const int code = in_child([&] {
