@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "meshcontour/boundary.hpp"
+#include "meshcontour/fit.hpp"
+#include "meshcontour/render.hpp"
+#include "meshcontour/write.hpp"
+
+namespace meshcontour::app {
+
+/// The words of an option and what they mean; one table serves parsing, help and messages.
+template <class T, std::size_t N>
+using Choices = std::array<std::pair<std::string_view, T>, N>;
+
+inline constexpr Choices<Layer, 7> kLayers = {{{"mesh", Layer::Mesh},
+                                               {"edges", Layer::Edges},
+                                               {"curves", Layer::Curves},
+                                               {"wireframe", Layer::Wireframe},
+                                               {"points", Layer::Points},
+                                               {"control", Layer::Control},
+                                               {"annotations", Layer::Annotations}}};
+inline constexpr Choices<View, 8> kViews = {{{"iso", View::Iso},
+                                             {"front", View::Front},
+                                             {"back", View::Back},
+                                             {"left", View::Left},
+                                             {"right", View::Right},
+                                             {"top", View::Top},
+                                             {"bottom", View::Bottom},
+                                             {"report", View::Report}}};
+inline constexpr Choices<ColorBy, 4> kColorings = {
+    {{"file", ColorBy::File}, {"patch", ColorBy::Patch}, {"layer", ColorBy::Layer}, {"type", ColorBy::Type}}};
+inline constexpr Choices<GlBackend, 3> kBackends = {
+    {{"auto", GlBackend::Automatic}, {"osmesa", GlBackend::OSMesa}, {"egl", GlBackend::Egl}}};
+inline constexpr Choices<Extractor, 2> kExtractors = {
+    {{"sorted", Extractor::Sorted}, {"halfedge", Extractor::Halfedge}}};
+inline constexpr Choices<FitMethod, 2> kFitMethods = {
+    {{"control", FitMethod::Control}, {"interpolate", FitMethod::Interpolate}}};
+inline constexpr Choices<CsvContent, 2> kCsvContents = {
+    {{"loops", CsvContent::Loops}, {"curves", CsvContent::Curves}}};
+inline constexpr Choices<ObjContent, 2> kObjContents = {
+    {{"polylines", ObjContent::Polylines}, {"curves", ObjContent::Curves}}};
+
+/// "mesh, edges, curves"
+template <class T, std::size_t N>
+std::string words(const Choices<T, N>& choices) {
+  std::string out;
+  for (const auto& [word, value] : choices) out += (out.empty() ? "" : ", ") + std::string(word);
+  return out;
+}
+
+/// The word of a value.
+template <class T, std::size_t N>
+std::string word_of(const Choices<T, N>& choices, T value) {
+  for (const auto& [word, candidate] : choices) {
+    if (candidate == value) return std::string(word);
+  }
+  return {};
+}
+
+}  // namespace meshcontour::app

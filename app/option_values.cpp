@@ -1,0 +1,117 @@
+#include "option_values.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+namespace meshcontour::app {
+namespace {
+
+// The whole text as a number, nothing where it is not one.
+template <class T>
+std::optional<T> whole_number(std::string_view text) {
+  T value{};
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || fault != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::optional<std::uint8_t> hexadecimal_byte(std::string_view text) {
+  std::uint8_t value{};
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+  if (fault != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+void refuse(std::string_view option, std::string_view text, std::string_view expected) {
+  throw Error(ErrorCode::Usage, fmt::format("{}: expected {}, found '{}'", option, expected, printable(text)));
+}
+
+std::uint64_t parse_count(std::string_view text, std::string_view option, std::uint64_t largest) {
+  const auto value = whole_number<std::uint64_t>(text);
+  if (!value) refuse(option, text, "a whole number");
+  if (*value > largest) refuse(option, text, fmt::format("at most {}", largest));
+  return *value;
+}
+
+double parse_positive(std::string_view text, std::string_view option) {
+  const auto value = whole_number<double>(text);
+  if (!value || !std::isfinite(*value) || *value <= 0) refuse(option, text, "a number above zero");
+  return *value;
+}
+
+std::pair<int, int> parse_size(std::string_view text) {
+  const std::size_t cross = text.find('x');
+  const auto width = whole_number<int>(text.substr(0, cross));
+  const auto height = whole_number<int>(cross == text.npos ? "" : text.substr(cross + 1));
+  const auto fits = [](const std::optional<int>& side) { return side && *side >= 1 && *side <= 16384; };
+  if (!fits(width) || !fits(height)) refuse("--size", text, "WIDTHxHEIGHT with 1 to 16384 pixels a side");
+  return {*width, *height};
+}
+
+std::optional<Rgba> parse_background(std::string_view text) {
+  if (text == "none") return std::nullopt;
+  const std::string_view digits = text.starts_with('#') ? text.substr(1) : text;
+  const bool sized = digits.size() == 6 || digits.size() == 8;
+  const auto channel = [&](std::size_t at) { return hexadecimal_byte(digits.substr(at, 2)); };
+  const auto red = sized ? channel(0) : std::nullopt, green = sized ? channel(2) : std::nullopt,
+             blue = sized ? channel(4) : std::nullopt,
+             alpha = digits.size() == 8 ? channel(6) : std::optional<std::uint8_t>(255);
+  if (!red || !green || !blue || !alpha) refuse("--background", text, "none, rrggbb or rrggbbaa");
+  return Rgba{*red, *green, *blue, *alpha};
+}
+
+std::vector<std::string_view> split_commas(std::string_view text) {
+  std::vector<std::string_view> parts;
+  if (text.empty()) return parts;
+  for (;;) {
+    const std::size_t comma = text.find(',');
+    parts.push_back(text.substr(0, comma));
+    if (comma == text.npos) return parts;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> parse_ranges(std::string_view text, std::string_view option) {
+  std::vector<std::pair<std::size_t, std::size_t>> ranges;
+  for (const std::string_view part : split_commas(text)) {
+    const std::size_t dash = part.find('-');
+    const auto first = whole_number<std::size_t>(part.substr(0, dash));
+    const auto last = dash == part.npos ? first : whole_number<std::size_t>(part.substr(dash + 1));
+    if (!first || !last || *first < 1 || *last < *first) break;
+    ranges.emplace_back(*first, *last);
+  }
+  if (ranges.empty() || ranges.size() != split_commas(text).size()) {
+    refuse(option, text, "numbers from 1 and ranges, as in 4,7-9");
+  }
+  return ranges;
+}
+
+std::string fill_template(std::string_view name, const std::string& input, std::size_t number) {
+  const std::filesystem::path path = input == "-" ? "stdin" : input;
+  const std::pair<std::string_view, std::string> fields[] = {
+      {"{stem}", path.stem().string()},
+      {"{dir}", path.has_parent_path() ? path.parent_path().string() : "."},
+      {"{n}", fmt::format("{}", number)}};
+  std::string out;
+  while (!name.empty()) {
+    bool replaced = false;
+    for (const auto& [field, value] : fields) {
+      if (!name.starts_with(field)) continue;
+      out += value;
+      name.remove_prefix(field.size());
+      replaced = true;
+      break;
+    }
+    if (replaced) continue;
+    out += name.front();
+    name.remove_prefix(1);
+  }
+  return out;
+}
+
+}  // namespace meshcontour::app

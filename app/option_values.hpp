@@ -1,0 +1,71 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "choices.hpp"
+#include "meshcontour/error.hpp"
+
+namespace meshcontour::app {
+
+// Values of options as the user types them. All throw Error{Usage} with a message that names the option, the text
+// and what would be right.
+
+[[noreturn]] void refuse(std::string_view option, std::string_view text, std::string_view expected);
+
+/// A whole number from 0 to `largest`.
+std::uint64_t parse_count(std::string_view text, std::string_view option, std::uint64_t largest = UINT64_MAX);
+
+/// A finite number above zero.
+double parse_positive(std::string_view text, std::string_view option);
+
+/// "1280x960"
+std::pair<int, int> parse_size(std::string_view text);
+
+/// "none", "rrggbb" or "rrggbbaa", with or without '#'.
+std::optional<Rgba> parse_background(std::string_view text);
+
+/// "4,7-9" as first and last of each range, numbers from 1.
+std::vector<std::pair<std::size_t, std::size_t>> parse_ranges(std::string_view text, std::string_view option);
+
+/// The parts between commas; an empty text has none.
+std::vector<std::string_view> split_commas(std::string_view text);
+
+template <class T, std::size_t N>
+T parse_choice(std::string_view text, const Choices<T, N>& choices, std::string_view option) {
+  for (const auto& [word, value] : choices) {
+    if (word == text) return value;
+  }
+  refuse(option, text, "one of " + words(choices));
+}
+
+/// Words between commas, each at most once, at least one.
+template <class T, std::size_t N>
+std::vector<T> parse_choices(std::string_view text, const Choices<T, N>& choices, std::string_view option) {
+  std::vector<T> out;
+  for (const std::string_view part : split_commas(text)) {
+    const T value = parse_choice(part, choices, option);
+    if (std::ranges::find(out, value) != out.end()) refuse(option, text, "each word once");
+    out.push_back(value);
+  }
+  if (out.empty()) refuse(option, text, "some of " + words(choices));
+  return out;
+}
+
+template <class T, std::size_t N>
+std::string join_words(const std::vector<T>& values, const Choices<T, N>& choices) {
+  std::string out;
+  for (const T value : values) out += (out.empty() ? "" : ",") + word_of(choices, value);
+  return out;
+}
+
+/// The output's name with {stem}, {dir} and {n} filled in: the input's name without folder and extension, its folder,
+/// its number.
+std::string fill_template(std::string_view name, const std::string& input, std::size_t number);
+
+}  // namespace meshcontour::app

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "meshcontour/boundary.hpp"
+#include "meshcontour/fit.hpp"
+#include "meshcontour/model.hpp"
+#include "meshcontour/read.hpp"
+#include "meshcontour/render.hpp"
+#include "meshcontour/report.hpp"
+#include "meshcontour/write.hpp"
+
+namespace meshcontour {
+
+/// One file to be written.
+struct OutputRequest {
+  std::string path;  ///< "-": standard output
+  OutputFormat format = OutputFormat::Json;
+};
+
+/// The patches that outputs are restricted to.
+struct PatchSelection {
+  std::string shell;                                         ///< id; empty: all
+  std::vector<std::pair<std::size_t, std::size_t>> patches;  ///< first and last, from 1; empty: all
+
+  bool everything() const { return shell.empty() && patches.empty(); }
+};
+
+/// What to do with one input.
+struct Job {
+  std::string input;  ///< "-": standard input
+  std::vector<OutputRequest> outputs;
+  PatchSelection selection;
+  ReadOptions read;
+  BoundaryOptions boundary;
+  FitOptions fit;
+  RenderOptions render;
+  WriteOptions write;
+  bool timings_in_json = false;  ///< lists the stages' times in JSON outputs, whose bytes then change from run to run
+};
+
+/// What one job gave.
+struct Run {
+  Model model;
+  std::vector<ShellBoundary> boundaries;
+  std::vector<Contour> contours;
+  std::vector<Diagnostic> diagnostics;
+  Timings timings;
+};
+
+/// Reads, extracts, fits, draws and writes: the one place that knows the order of the stages and times them.
+///
+/// All outputs appear together once everything has succeeded, or none does.
+///
+/// @throws Error  of any stage; Usage if the selection names a shell or patch that is not there.
+Run run(const Job& job);
+
+}  // namespace meshcontour

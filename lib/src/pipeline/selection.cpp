@@ -1,0 +1,59 @@
+#include "pipeline/selection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace meshcontour::detail {
+namespace {
+
+bool holds(const PatchSelection& selection, std::size_t patch) {
+  const auto in_range = [&](const auto& range) { return range.first <= patch + 1 && patch + 1 <= range.second; };
+  return selection.patches.empty() || std::ranges::any_of(selection.patches, in_range);
+}
+
+// Returns the number of patches that stay.
+std::size_t keep_patches(Shell& shell, const PatchSelection& selection) {
+  const bool shell_chosen = selection.shell.empty() || selection.shell == shell.id;
+  std::size_t kept = 0, next = 0;
+  for (std::size_t p = 0; p < shell.patches.size(); ++p) {
+    Patch& patch = shell.patches[p];
+    const std::size_t first = patch.first_triangle;
+    patch.first_triangle = next;
+    if (!shell_chosen || !holds(selection, p)) {
+      patch.triangle_count = 0;
+      continue;
+    }
+    ++kept;
+    const auto move_down = [&](auto& list, std::size_t each) {
+      const auto from = list.begin() + static_cast<std::ptrdiff_t>(each * first);
+      std::copy_n(from, each * patch.triangle_count, list.begin() + static_cast<std::ptrdiff_t>(each * next));
+    };
+    move_down(shell.triangles, 1);
+    if (!shell.corner_normals.empty()) move_down(shell.corner_normals, 3);
+    next += patch.triangle_count;
+  }
+  shell.triangles.resize(next);
+  if (!shell.corner_normals.empty()) shell.corner_normals.resize(3 * next);
+  return kept;
+}
+
+}  // namespace
+
+void keep_selection(Model& model, const PatchSelection& selection) {
+  if (selection.everything()) return;
+  std::size_t kept = 0, most = 0;
+  for (Shell& shell : model.shells) {
+    most = std::max(most, shell.patches.size());
+    kept += keep_patches(shell, selection);
+  }
+  if (kept > 0) return;
+  const auto is_chosen = [&](const Shell& shell) { return shell.id == selection.shell; };
+  if (!selection.shell.empty() && std::ranges::none_of(model.shells, is_chosen)) {
+    throw Error(ErrorCode::Usage, fmt::format("--shell: the model has no shell '{}'", printable(selection.shell)));
+  }
+  throw Error(ErrorCode::Usage,
+              fmt::format("--patches: none of these patches exists; the largest number is {}", most));
+}
+
+}  // namespace meshcontour::detail
