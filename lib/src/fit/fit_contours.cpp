@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fit/certificate.hpp"
+#include "fit/chain_contours.hpp"
 #include "fit/loop.hpp"
 #include "fit/whole_loop.hpp"
 #include "meshcontour/fit.hpp"
@@ -27,9 +28,6 @@ void check(const FitOptions& options) {
   if (!(options.corner_angle > 0 && options.corner_angle <= std::numbers::pi)) {
     throw Error(ErrorCode::Usage, fmt::format("the corner angle {} is not in (0, 180] degrees",
                                               options.corner_angle * 180 / std::numbers::pi));
-  }
-  if (options.method != FitMethod::Control && options.method != FitMethod::Interpolate) {
-    throw Error(ErrorCode::Usage, "this version fits by control points or interpolation only");
   }
 }
 
@@ -110,7 +108,9 @@ std::vector<Contour> fit_contours(const Model& model, std::span<const ShellBound
                                   const FitOptions& options, std::vector<Diagnostic>& diagnostics) {
   check(options);
   const std::vector<Task> tasks = list_tasks(boundaries);
+  const bool by_chains = options.method == FitMethod::Approximate || options.method == FitMethod::Primitives;
   std::vector<Contour> contours(tasks.size());
+  if (by_chains) contours = detail::chain_contours(model, boundaries, options);
   std::vector<detail::LoopDefect> defects(tasks.size(), detail::LoopDefect::None);
   parallel_for(tasks.size(), kLoopsPerTask, options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -118,8 +118,10 @@ std::vector<Contour> fit_contours(const Model& model, std::span<const ShellBound
       const BoundaryLoop& boundary = boundaries[task.shell].patches[task.patch].loops[task.loop];
       const detail::Loop loop = detail::make_loop(model.shells[task.shell].points, boundary);
       defects[i] = detail::find_defect(loop);
-      const bool sound = defects[i] == detail::LoopDefect::None;
-      contours[i] = sound ? whole_contour(loop, options.method) : detail::polygon_contour(loop);
+      bool sound = defects[i] == detail::LoopDefect::None;
+      if (sound && by_chains) sound = !contours[i].segments.empty() && std::isfinite(contours[i].deviation);
+      if (sound && !by_chains) contours[i] = whole_contour(loop, options.method);
+      if (!sound) contours[i] = detail::polygon_contour(loop);
       contours[i].shell = task.shell;
       contours[i].patch = task.patch;
       contours[i].loop = task.loop;
