@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include "meshcontour/model.hpp"
@@ -16,6 +17,9 @@ struct ReadOptions {
   bool strict = false;  ///< anything that would be mended with a warning is an error
   unsigned threads = 0; ///< 0: one per processor
   SweepOptions sweep;   ///< of files that describe sweeps; the limit and the threads above rule there too
+  /// Points of polygon files (STL, OBJ, PLY, OFF) no farther apart than this become one, see weld_points; vertex
+  /// indices then mean the welded list. None: only STL is welded, where coordinates are equal.
+  std::optional<double> weld;
 };
 
 /// Reads a file; the format follows its content, with the extension as a hint.

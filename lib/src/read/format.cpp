@@ -8,6 +8,10 @@
 #include <vector>
 
 #include "read/swp.hpp"
+#include "read/obj.hpp"
+#include "read/off.hpp"
+#include "read/ply.hpp"
+#include "read/stl.hpp"
 
 namespace meshcontour::detail {
 namespace {
@@ -62,6 +66,10 @@ const Format& detect_format(std::string_view head, std::uint64_t size, std::stri
 std::span<const Format> formats() {
   static const std::vector<Format> table = {
       {"swept surfaces", {"swp"}, sniff_swp, read_swp},
+      {"STL", {"stl"}, sniff_stl, read_stl},
+      {"PLY", {"ply"}, sniff_ply, read_ply},
+      {"OFF", {"off"}, sniff_off, read_off},
+      {"OBJ", {"obj"}, sniff_obj, read_obj},
   };
   return table;
 }
