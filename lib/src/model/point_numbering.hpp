@@ -11,8 +11,8 @@ namespace meshcontour::detail {
 
 /// Numbers points by their first appearance: equal coordinates (0 equals -0) get the same number.
 ///
-/// A flat hash table that is asked in batches, so that its memory is fetched ahead. Long probes, which only a crafted
-/// input has, change the hash function; numbers do not depend on it.
+/// A flat hash table that is asked in batches, so that its memory is fetched ahead. Long probes, which only a
+/// crafted input has, change the hash function; numbers do not depend on it.
 class PointNumbering {
  public:
   /// @param expected  different points, for sizing; more is fine.

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <vector>
 
-#include "read/swp.hpp"
 #include "read/obj.hpp"
 #include "read/off.hpp"
 #include "read/ply.hpp"
 #include "read/stl.hpp"
+#include "read/swp.hpp"
 
 namespace meshcontour::detail {
 namespace {

@@ -26,7 +26,8 @@ class ObjReader {
   Model read() && {
     while (!in_.at_end()) read_statement();
     for (PolygonMesh::Group& group : mesh_.groups) {
-      if (const auto color = materials_.find(material_of_[&group - mesh_.groups.data()]); color != materials_.end()) {
+      if (const auto color = materials_.find(material_of_[&group - mesh_.groups.data()]);
+          color != materials_.end()) {
         group.color = color->second;
       }
     }
@@ -94,7 +95,8 @@ class ObjReader {
     corners_.push_back(resolve(vertex, mesh_.points.size(), "vertex"));
     if (vertex.size() == word.size()) return;
     const std::string_view rest = word.substr(vertex.size() + 1), texture = rest.substr(0, rest.find('/'));
-    if (!texture.empty() && !parse_integer<std::int64_t>(texture)) fail_at(texture, "an index of a texture vertex");
+    if (!texture.empty() && !parse_integer<std::int64_t>(texture))
+      fail_at(texture, "an index of a texture vertex");
     if (texture.size() == rest.size()) return;
     corner_normals_.push_back(resolve(rest.substr(texture.size() + 1), mesh_.normals.size(), "normal"));
   }
@@ -115,7 +117,8 @@ class ObjReader {
 
   Index current_group() {
     if (group_) return *group_;
-    const auto [known, is_new] = group_of_.try_emplace({object_, group_name_, material_}, mesh_.groups.size());
+    const auto [known, is_new] =
+        group_of_.try_emplace({object_, group_name_, material_}, mesh_.groups.size());
     if (is_new) {
       std::string name = object_;
       for (const std::string& part : {group_name_, material_}) {

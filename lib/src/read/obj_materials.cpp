@@ -26,7 +26,8 @@ void read_property(TextCursor& in, std::string_view keyword, Rgba& color) {
 
 }  // namespace
 
-void read_obj_materials(const InputFolder& folder, std::string_view file, std::map<std::string, Rgba>& colors) {
+void read_obj_materials(const InputFolder& folder, std::string_view file,
+                        std::map<std::string, Rgba>& colors) {
   InputFile input = folder.open(file);
   const FileBytes bytes = input.read();
   TextCursor in(bytes.view(), input.name(), '#');

@@ -39,13 +39,15 @@ class OffReader {
       in_.rest_of_line();  // normal, colour and texture coordinates
     }
     for (std::size_t i = 0; i < faces_; ++i) read_face();
-    if (!in_.at_end()) mesh_.note(Diagnostic::Severity::Warning, "text after the last face, left out", in_.spot());
+    if (!in_.at_end())
+      mesh_.note(Diagnostic::Severity::Warning, "text after the last face, left out", in_.spot());
     return std::move(mesh_).finish();
   }
 
  private:
   std::size_t count(std::string_view what, std::size_t least_bytes) {
-    const auto declared = static_cast<std::uint64_t>(in_.integer(0, std::numeric_limits<std::int64_t>::max()));
+    const auto declared =
+        static_cast<std::uint64_t>(in_.integer(0, std::numeric_limits<std::int64_t>::max()));
     if (declared > in_.remaining() / least_bytes + 1) {
       in_.fail(fmt::format("{} {} declared, but only {} bytes follow", declared, what, in_.remaining()));
     }
@@ -73,7 +75,8 @@ class OffReader {
     mesh_.add_polygon(corners_, {}, read_color());
   }
 
-  // Nothing, an index into a colour map that nobody has, or 3 or 4 numbers: from 0 to 255, or with a point to 1.
+  // Nothing, an index into a colour map that nobody has, or 3 or 4 numbers: from 0 to 255, or with a point
+  // to 1.
   Index read_color() {
     std::array<double, 4> channels = {0, 0, 0, 255};
     std::size_t found = 0;
@@ -84,11 +87,13 @@ class OffReader {
       if (found < 4) channels[found] = value;
       fractions = fractions || (found < 3 && word.find('.') != std::string_view::npos);
     }
-    if (found == 1 && std::abs(channels[0]) < 1e9) return colors_.group(-1 - std::llround(channels[0]), Rgba{});
+    if (found == 1 && std::abs(channels[0]) < 1e9)
+      return colors_.group(-1 - std::llround(channels[0]), Rgba{});
     if (found != 3 && found != 4) return colors_.group(color_key(Rgba{}), Rgba{});
     std::array<std::uint8_t, 4> bytes{};
     for (std::size_t i = 0; i < 4; ++i) {
-      bytes[i] = static_cast<std::uint8_t>(std::lround(std::clamp(channels[i] * (fractions ? 255 : 1), 0.0, 255.0)));
+      bytes[i] =
+          static_cast<std::uint8_t>(std::lround(std::clamp(channels[i] * (fractions ? 255 : 1), 0.0, 255.0)));
     }
     const Rgba color{bytes[0], bytes[1], bytes[2], bytes[3]};
     return colors_.group(color_key(color), color);

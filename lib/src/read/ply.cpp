@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kCornerLists = {"vertex_indices", "vertex_index"};
 constexpr std::array<std::string_view, 11> kPatchNumbers = {
-    "patch", "patch_id", "face_id", "region", "label", "group", "group_id", "material", "material_index", "segment",
-    "object_id"};
+    "patch",    "patch_id", "face_id",        "region",  "label",    "group",
+    "group_id", "material", "material_index", "segment", "object_id"};
 
 // What a property is read for.
 enum class Role : std::uint8_t { Skip, X, Y, Z, Corners, PatchNumber, Red, Green, Blue, Alpha };
@@ -83,9 +83,9 @@ class PlyBody {
       if (element.name == "vertex") {
         read_vertices(element);
       } else if (element.name == "face") {
-        read_faces(element, [this](const Face& face) { add_face(face); });
+        read_faces(element, 0, [this](const Face& face) { add_face(face); });
       } else if (element.name == "tristrips") {
-        read_faces(element, [this](const Face& face) { add_strip(face); });
+        read_faces(element, -1, [this](const Face& face) { add_strip(face); });
       } else {
         skip(element);
       }
@@ -99,13 +99,15 @@ class PlyBody {
  private:
   struct Face {
     std::vector<std::int64_t> corners;
+    std::int64_t lowest_corner = 0;  // -1 where it separates strips
     std::int64_t patch = 0;
     Rgba color;
     bool has_patch = false;
   };
 
   void skip_value(const PlyProperty& property) {
-    const std::size_t count = property.count_type ? values_.list_length(*property.count_type, property.type) : 1;
+    const std::size_t count =
+        property.count_type ? values_.list_length(*property.count_type, property.type) : 1;
     values_.skip(property.type, count);
   }
 
@@ -129,7 +131,8 @@ class PlyBody {
         if (role == Role::Skip) {
           skip_value(property);
         } else {
-          point[static_cast<Eigen::Index>(role) - static_cast<Eigen::Index>(Role::X)] = values_.number(property.type);
+          point[static_cast<Eigen::Index>(role) - static_cast<Eigen::Index>(Role::X)] =
+              values_.number(property.type);
         }
       }
       mesh_.points.push_back(point);
@@ -138,10 +141,11 @@ class PlyBody {
   }
 
   template <typename Add>
-  void read_faces(const PlyElement& element, Add&& add) {
+  void read_faces(const PlyElement& element, std::int64_t lowest_corner, Add&& add) {
     const std::vector<Use> uses = uses_of_face(element);
     if (!has_role(uses, Role::Corners)) values_.fail("faces need a list vertex_indices of whole numbers");
     Face face;
+    face.lowest_corner = lowest_corner;
     face.has_patch = has_role(uses, Role::PatchNumber);
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (const auto& [property, role] : uses) read_face_value(property, role, face);
@@ -154,22 +158,34 @@ class PlyBody {
     switch (role) {
       case Role::Corners:
         face.corners.resize(values_.list_length(*property.count_type, property.type));
-        for (std::int64_t& corner : face.corners) corner = values_.integer(property.type);
+        for (std::int64_t& corner : face.corners) corner = read_corner(property.type, face.lowest_corner);
         break;
-      case Role::PatchNumber: face.patch = values_.integer(property.type); break;
-      case Role::Red: face.color.red = channel(values_.number(property.type), property.type); break;
-      case Role::Green: face.color.green = channel(values_.number(property.type), property.type); break;
-      case Role::Blue: face.color.blue = channel(values_.number(property.type), property.type); break;
-      case Role::Alpha: face.color.alpha = channel(values_.number(property.type), property.type); break;
-      default: skip_value(property);
+      case Role::PatchNumber:
+        face.patch = values_.integer(property.type);
+        break;
+      case Role::Red:
+        face.color.red = channel(values_.number(property.type), property.type);
+        break;
+      case Role::Green:
+        face.color.green = channel(values_.number(property.type), property.type);
+        break;
+      case Role::Blue:
+        face.color.blue = channel(values_.number(property.type), property.type);
+        break;
+      case Role::Alpha:
+        face.color.alpha = channel(values_.number(property.type), property.type);
+        break;
+      default:
+        skip_value(property);
     }
   }
 
-  Index checked(std::int64_t corner) const {
-    if (corner < 0 || corner >= static_cast<std::int64_t>(mesh_.points.size())) {
+  std::int64_t read_corner(PlyType type, std::int64_t lowest) {
+    const std::int64_t corner = values_.integer(type);
+    if (corner < lowest || corner >= static_cast<std::int64_t>(mesh_.points.size())) {
       values_.fail(fmt::format("vertex {}, but there are {}", corner, mesh_.points.size()));
     }
-    return static_cast<Index>(corner);
+    return corner;
   }
 
   Index group_of(const Face& face) {
@@ -178,7 +194,7 @@ class PlyBody {
 
   void add_face(const Face& face) {
     corners_.clear();
-    for (const std::int64_t corner : face.corners) corners_.push_back(checked(corner));
+    for (const std::int64_t corner : face.corners) corners_.push_back(static_cast<Index>(corner));
     mesh_.add_polygon(corners_, {}, group_of(face));
   }
 
@@ -188,7 +204,8 @@ class PlyBody {
     for (std::size_t i = 0; i < face.corners.size(); ++i) {
       if (face.corners[i] == -1) start = i + 1;
       if (i < start + 2) continue;
-      const Index a = checked(face.corners[i - 2]), b = checked(face.corners[i - 1]), c = checked(face.corners[i]);
+      const auto corner = [&](std::size_t k) { return static_cast<Index>(face.corners[k]); };
+      const Index a = corner(i - 2), b = corner(i - 1), c = corner(i);
       if (a == b || b == c || c == a) continue;  // how strips turn corners
       mesh_.add_triangle((i - start) % 2 == 0 ? Triangle{a, b, c} : Triangle{b, a, c}, group_of(face));
     }

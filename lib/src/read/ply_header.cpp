@@ -116,7 +116,8 @@ PlyHeader read_ply_header(TextCursor& in) {
     } else if (keyword == "comment" || keyword == "obj_info") {
       in.rest_of_line();
     } else {
-      in.fail(fmt::format("expected 'element', 'property' or 'end_header', found '{}'", printable(keyword, 40)));
+      in.fail(
+          fmt::format("expected 'element', 'property' or 'end_header', found '{}'", printable(keyword, 40)));
     }
   }
   in.rest_of_line();

@@ -39,7 +39,8 @@ struct PlyHeader {
 
 /// Reads up to and with the line "end_header".
 ///
-/// @throws Error  BadData with the line if the header is wrong or declares more elements than the bytes that follow
+/// @throws Error  BadData with the line if the header is wrong or declares more elements than the bytes that
+/// follow
 ///                could hold.
 PlyHeader read_ply_header(TextCursor& in);
 

@@ -61,7 +61,9 @@ class PlyBinaryValues {
   void skip(PlyType type, std::size_t count) { take_bytes(count * size_of(type)); }
   void end_element() { ++element_; }
   Spot spot() const { return {file_, 0, 0, element_name_ + fmt::format(" {}", element_ + 1)}; }
-  [[noreturn]] void fail(const std::string& message) const { throw Error(ErrorCode::BadData, message, spot()); }
+  [[noreturn]] void fail(const std::string& message) const {
+    throw Error(ErrorCode::BadData, message, spot());
+  }
 
   void begin_elements(const std::string& name) {
     element_name_ = name;
@@ -90,14 +92,22 @@ class PlyBinaryValues {
   // Every type fits a double exactly.
   double take(PlyType type) {
     switch (type) {
-      case PlyType::Int8: return take_as<std::int8_t>();
-      case PlyType::UInt8: return take_as<std::uint8_t>();
-      case PlyType::Int16: return take_as<std::int16_t>();
-      case PlyType::UInt16: return take_as<std::uint16_t>();
-      case PlyType::Int32: return take_as<std::int32_t>();
-      case PlyType::UInt32: return take_as<std::uint32_t>();
-      case PlyType::Float32: return take_as<float>();
-      case PlyType::Float64: break;
+      case PlyType::Int8:
+        return take_as<std::int8_t>();
+      case PlyType::UInt8:
+        return take_as<std::uint8_t>();
+      case PlyType::Int16:
+        return take_as<std::int16_t>();
+      case PlyType::UInt16:
+        return take_as<std::uint16_t>();
+      case PlyType::Int32:
+        return take_as<std::int32_t>();
+      case PlyType::UInt32:
+        return take_as<std::uint32_t>();
+      case PlyType::Float32:
+        return take_as<float>();
+      case PlyType::Float64:
+        break;
     }
     return take_as<double>();
   }

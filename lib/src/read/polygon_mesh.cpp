@@ -47,12 +47,14 @@ void PolygonMesh::add_triangle(const Triangle& triangle, Index group) {
   shell_.triangles.push_back(triangle);
 }
 
-void PolygonMesh::add_polygon(std::span<const Index> corners, std::span<const Index> corner_normals, Index group) {
+void PolygonMesh::add_polygon(std::span<const Index> corners, std::span<const Index> corner_normals,
+                              Index group) {
   if (corners.size() < 3) {
     return note(Diagnostic::Severity::Warning, "polygon with fewer than three corners, left out");
   }
   if (!triangulate(points, corners, cut_)) {
-    note(Diagnostic::Severity::Warning, "polygon that crosses itself or has no area, cut into a fan of triangles");
+    note(Diagnostic::Severity::Warning,
+         "polygon that crosses itself or has no area, cut into a fan of triangles");
   }
   for (const auto& [a, b, c] : cut_) {
     if (!corner_normals.empty() || !shell_.corner_normals.empty()) {

@@ -35,7 +35,8 @@ class PolygonMesh {
   /// @param corner_normals  indices into normals, parallel to corners; or empty.
   /// @param group           index into groups; 0 where there are none.
   /// @throws Error          OutOfMemory when there are more triangles than the options allow.
-  void add_polygon(std::span<const Index> corners, std::span<const Index> corner_normals = {}, Index group = 0);
+  void add_polygon(std::span<const Index> corners, std::span<const Index> corner_normals = {},
+                   Index group = 0);
 
   /// Adds a triangle; as above.
   void add_triangle(const Triangle& triangle, Index group = 0);
@@ -44,7 +45,8 @@ class PolygonMesh {
   void reserve_triangles(std::size_t count) { shell_.triangles.reserve(count); }
 
   /// Counts something that was mended or left out.
-  void note(Diagnostic::Severity severity, const std::string& message, const Spot& spot = {}, std::size_t count = 1);
+  void note(Diagnostic::Severity severity, const std::string& message, const Spot& spot = {},
+            std::size_t count = 1);
 
   /// Patches from the groups, points welded where the options ask for it, the mesh cleaned.
   Model finish() &&;
@@ -55,7 +57,7 @@ class PolygonMesh {
 
   const ReadContext& context_;
   Shell shell_;
-  std::vector<Index> triangle_groups_;  // empty while all are of group 0
+  std::vector<Index> triangle_groups_;             // empty while all are of group 0
   std::vector<std::array<std::uint32_t, 3>> cut_;  // scratch
   std::vector<Diagnostic> diagnostics_;
 };

@@ -69,7 +69,8 @@ class BinaryFacets {
   void read_corners(std::size_t first, std::size_t size) {
     std::array<float, 9> coordinates;
     for (std::size_t i = 0; i < size; ++i) {
-      std::memcpy(coordinates.data(), facets_.data() + (first + i) * kFacetBytes + kNormalBytes, sizeof coordinates);
+      std::memcpy(coordinates.data(), facets_.data() + (first + i) * kFacetBytes + kNormalBytes,
+                  sizeof coordinates);
       for (std::size_t k = 0; k < 3; ++k) {
         corners_[3 * i + k] = Point(coordinates[3 * k], coordinates[3 * k + 1], coordinates[3 * k + 2]);
         if (!corners_[3 * i + k].allFinite()) {
@@ -88,13 +89,15 @@ class BinaryFacets {
 };
 
 Model read_binary(std::string_view bytes, const ReadContext& context) {
-  const auto refuse = [&](const std::string& why) { throw Error(ErrorCode::BadData, why, {context.name, 0, 0, ""}); };
+  const auto refuse = [&](const std::string& why) {
+    throw Error(ErrorCode::BadData, why, {context.name, 0, 0, ""});
+  };
   if (bytes.size() < kHeaderBytes) refuse("cut short: a binary STL file has a header of 84 bytes");
   const std::uint64_t declared = declared_facets(bytes);
   const std::string_view facets = bytes.substr(kHeaderBytes);
   if (declared > facets.size() / kFacetBytes) {
-    refuse(fmt::format("neither a text STL file nor a whole binary one: {} facets declared, room for {}", declared,
-                       facets.size() / kFacetBytes));
+    refuse(fmt::format("neither a text STL file nor a whole binary one: {} facets declared, room for {}",
+                       declared, facets.size() / kFacetBytes));
   }
   const std::size_t used = static_cast<std::size_t>(declared) * kFacetBytes;
   Model model = BinaryFacets(facets.substr(0, used), context).read();

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "meshcontour/model.hpp"
+#include "meshcontour/output.hpp"
+
+namespace meshcontour {
+
+/// Files that hold a mesh.
+enum class MeshFormat { Off, Obj, Stl, Ply };
+
+/// The format of a name or extension, in any case, with or without dot: "ply", ".STL".
+std::optional<MeshFormat> mesh_format(std::string_view name);
+
+struct MeshWriteOptions {
+  bool binary = true;  ///< STL and PLY; OFF and OBJ are text always
+  bool colors = true;  ///< of patches: a colour a face in OFF and PLY
+};
+
+/// Writes the triangles of every instance, placed; memory is bounded by one buffer.
+///
+/// Points keep their order, the unused ones too, so that vertex numbers of tables are those of the file; STL,
+/// which has none, gives them back by first appearance when it is read. Coordinates are written so that they
+/// read back the same, but for binary STL, which is in single precision. Triangles of mirrored instances are
+/// turned.
+///
+/// Patches are kept as groups `patch_N` (N from 1, over all instances) in OBJ, as solids of the same name in
+/// text STL, as the face property `patch` in PLY, and by their colours in OFF and PLY. Binary STL has none.
+///
+/// @param notes   findings are appended: triangles that collapse in single precision.
+/// @throws Error  InputOutput from the sink; BadData if a coordinate does not fit single precision, or there
+/// are more
+///                triangles or points than the format can count.
+void write_mesh(MeshFormat format, const Model& model, const MeshWriteOptions& options, Sink& sink,
+                std::vector<Diagnostic>& notes);
+
+}  // namespace meshcontour
