@@ -9,18 +9,14 @@
 namespace meshcontour::detail {
 namespace {
 
-constexpr std::size_t kPointsAtATime = 1 << 15;
+// Points are taken in a few ranges, so that the sides in hand at a time stay few.
+constexpr std::size_t kRanges = 4;
+constexpr std::size_t kLeastSidesInRange = 1 << 18;
 
 // A side under the lower end of its edge: the higher end above, the side below.
 std::uint64_t entry_of(Index high, Index side) {
   return std::uint64_t{high} << 32 | side;
 }
-
-// Sides grouped by the lower end of their edge: those of point v stand at [begin[v], begin[v + 1]).
-struct SidesByPoint {
-  std::vector<Index> begin;
-  std::vector<std::uint64_t> entries;
-};
 
 template <typename Visit>
 void for_each_side(std::span<const Triangle> triangles, Visit&& visit) {
@@ -33,16 +29,27 @@ void for_each_side(std::span<const Triangle> triangles, Visit&& visit) {
   }
 }
 
-SidesByPoint group_sides(std::span<const Triangle> triangles, std::size_t points) {
-  SidesByPoint groups;
-  groups.begin.assign(points + 2, 0);
-  for_each_side(triangles, [&](Index low, Index, Index) { ++groups.begin[low + 2]; });
-  for (std::size_t v = 2; v < groups.begin.size(); ++v) groups.begin[v] += groups.begin[v - 1];
-  groups.entries.resize(groups.begin.back());
-  for_each_side(triangles, [&](Index low, Index high, Index side) {
-    groups.entries[groups.begin[low + 1]++] = entry_of(high, side);
-  });
-  return groups;
+// Where the sides of a point would begin if all stood in the order of the lower ends of their edges; and,
+// behind the last point, where they end.
+std::vector<Index> count_sides(std::span<const Triangle> triangles, std::size_t points) {
+  std::vector<Index> begin(points + 1, 0);
+  for_each_side(triangles, [&](Index low, Index, Index) { ++begin[low + 1]; });
+  for (std::size_t v = 1; v <= points; ++v) begin[v] += begin[v - 1];
+  return begin;
+}
+
+// First points of ranges with about as many sides each, and behind them the number of points.
+std::vector<Index> split_points(const std::vector<Index>& begin) {
+  const std::size_t in_range = std::max<std::size_t>(begin.back() / kRanges + 1, kLeastSidesInRange);
+  std::vector<Index> firsts = {0};
+  for (std::size_t wanted = in_range; wanted < begin.back(); wanted += in_range) {
+    const auto next = std::ranges::lower_bound(begin, wanted) - begin.begin();
+    if (static_cast<Index>(next) > firsts.back() && static_cast<std::size_t>(next) + 1 < begin.size()) {
+      firsts.push_back(static_cast<Index>(next));
+    }
+  }
+  firsts.push_back(static_cast<Index>(begin.size() - 1));
+  return firsts;
 }
 
 void sort_entries(std::span<std::uint64_t> entries) {
@@ -78,23 +85,37 @@ std::size_t pair_sides(std::span<std::uint64_t> entries, std::vector<Index>& opp
   return nonmanifold;
 }
 
+// Pairs the sides whose edges have their lower end in first..last.
+std::size_t pair_range(std::span<const Triangle> triangles, std::span<const Index> begin, Index first,
+                       Index last, std::vector<Index>& opposite) {
+  const Index offset = begin[first];
+  std::vector<std::uint64_t> entries(begin[last] - offset);
+  std::vector<Index> next(begin.begin() + first, begin.begin() + last);
+  for_each_side(triangles, [&](Index low, Index high, Index side) {
+    if (low >= first && low < last) entries[next[low - first]++ - offset] = entry_of(high, side);
+  });
+  std::size_t nonmanifold = 0;
+  for (Index v = first; v < last; ++v) {
+    const std::size_t size = begin[v + 1] - begin[v];
+    if (size > 0) nonmanifold += pair_sides(std::span(entries).subspan(begin[v] - offset, size), opposite);
+  }
+  return nonmanifold;
+}
+
 }  // namespace
 
 Adjacency side_adjacency(std::span<const Triangle> triangles, std::size_t points, unsigned threads) {
   if (triangles.size() >= kManySides / 3) {
     throw Error(ErrorCode::OutOfMemory, "a shell has more triangles than can be connected");
   }
-  SidesByPoint groups = group_sides(triangles, points);
+  const std::vector<Index> begin = count_sides(triangles, points), firsts = split_points(begin);
   Adjacency result;
   result.opposite.assign(3 * triangles.size(), kNoSide);
   std::atomic<std::size_t> nonmanifold = 0;
-  parallel_for(points, kPointsAtATime, threads, [&](std::size_t first, std::size_t last) {
-    std::size_t found = 0;
-    for (std::size_t v = first; v < last; ++v) {
-      const std::size_t begin = groups.begin[v], size = groups.begin[v + 1] - begin;
-      if (size > 0) found += pair_sides(std::span(groups.entries).subspan(begin, size), result.opposite);
+  parallel_for(firsts.size() - 1, 1, threads, [&](std::size_t first_range, std::size_t last_range) {
+    for (std::size_t r = first_range; r < last_range; ++r) {
+      nonmanifold += pair_range(triangles, begin, firsts[r], firsts[r + 1], result.opposite);
     }
-    nonmanifold += found;
   });
   result.nonmanifold_edges = nonmanifold;
   return result;

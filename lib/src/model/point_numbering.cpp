@@ -14,10 +14,9 @@ constexpr std::size_t kLeastSlots = 1024;
 constexpr std::size_t kLongestProbe = 200;  // at half load a good hash stays far below
 constexpr std::uint64_t kSeeds = 8;
 
-std::uint64_t mixed(std::uint64_t hash, double coordinate) {
-  // Adding zero makes -0 to 0.
-  hash = (hash ^ std::bit_cast<std::uint64_t>(coordinate + 0.0)) * 0x9E3779B97F4A7C15;
-  return hash ^ hash >> 32;
+// Adding zero makes -0 to 0.
+std::uint64_t bits(double coordinate, std::uint64_t seed) {
+  return std::bit_cast<std::uint64_t>(coordinate + 0.0) ^ seed;
 }
 
 }  // namespace
@@ -28,9 +27,12 @@ PointNumbering::PointNumbering(std::size_t expected) {
 }
 
 std::uint64_t PointNumbering::hash(const Point& point) const {
-  std::uint64_t hash = seed_ * 0xD6E8FEB86659FD93 + 0xA0761D6478BD642F;
-  for (const double coordinate : point) hash = mixed(hash, coordinate);
-  return hash * 0xE7037ED1A0B428DB;
+  const std::uint64_t seed = seed_ * 0xD6E8FEB86659FD93;
+  const std::uint64_t x = bits(point.x(), seed) * 0x9E3779B97F4A7C15;
+  const std::uint64_t y = bits(point.y(), seed) * 0xA0761D6478BD642F;
+  const std::uint64_t z = bits(point.z(), seed) * 0xE7037ED1A0B428DB;
+  const std::uint64_t mixed = x ^ std::rotl(y, 23) ^ std::rotl(z, 46);
+  return (mixed ^ mixed >> 32) * 0x8EBC6AF09C88C6E3;
 }
 
 void PointNumbering::rehash(std::size_t capacity, std::uint64_t seed) {
