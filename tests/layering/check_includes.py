@@ -17,7 +17,7 @@ LIBRARIES = {
                       "lib/src/multires/", "lib/src/sweep/", "tests/"],
     r"GL/|EGL/": ["lib/src/render/"],
     r"stb/|stb_|libdeflate": ["lib/src/write/png", "tests/"],
-    r"tinyxml2": ["lib/src/read/"],
+    r"tinyxml2": ["lib/src/read/", "tests/"],
     r"tbb/|oneapi/": ["lib/src/base/parallel"],
     r"nlohmann/": ["lib/src/write/", "lib/src/report/", "tests/"],
     r"zstd": ["lib/src/multires/"],

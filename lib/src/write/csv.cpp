@@ -1,6 +1,6 @@
 #include "base/escape.hpp"
 #include "base/text_writer.hpp"
-#include "write/drawing.hpp"
+#include "write/sampling.hpp"
 #include "write/writers.hpp"
 
 namespace meshcontour::detail {

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <tuple>
 #include <unordered_set>
 
 #include "meshcontour/fit.hpp"
+#include "write/sampling.hpp"
 
 namespace meshcontour::detail {
 namespace {
@@ -172,45 +171,6 @@ std::string curve_name(const NamedCurve& curve, std::size_t number) {
   return curve.name.empty() ? fmt::format("curve_{}", number + 1) : fmt::format("curve_{}", curve.name);
 }
 
-template <typename C>
-Point first_point(const C& curve) {
-  return curve.start;
-}
-template <>
-Point first_point(const BSplineCurve& curve) {
-  return evaluate(curve, curve.domain().first);
-}
-
-template <typename C>
-Point last_point(const C& curve) {
-  return curve.end;
-}
-template <>
-Point last_point(const BSplineCurve& curve) {
-  return evaluate(curve, curve.periodic ? curve.domain().first : curve.domain().second);
-}
-
-void add_samples(const LineSegment&, std::vector<Point>&) {}
-
-template <typename Arc>
-void add_samples(const Arc& arc, std::vector<Point>& points) {
-  const int count = static_cast<int>(std::ceil(64 * arc.angle / (2 * std::numbers::pi) - 1e-9));
-  for (int i = 1; i < count; ++i) points.push_back(evaluate(Curve(arc), static_cast<double>(i) / count));
-}
-
-void add_samples(const BSplineCurve& curve, std::vector<Point>& points) {
-  const double end = curve.domain().second;
-  const int count = curve.degree == 1 ? 1 : 16;
-  for (std::size_t k = static_cast<std::size_t>(curve.degree); k < curve.control_points.size(); ++k) {
-    const double low = curve.knots[k], high = curve.knots[k + 1];
-    if (low == high) continue;
-    for (int i = 1; i <= count; ++i) {
-      const double u = i == count ? high : low + (high - low) * i / count;
-      if (u < end) points.push_back(evaluate(curve, u));
-    }
-  }
-}
-
 }  // namespace
 
 void for_each_group(const Result& result, EdgeUse edges, LoopShape shape,
@@ -261,21 +221,6 @@ const Contour* find_contour(std::span<const Contour> contours, std::size_t shell
   const auto key = [](const Contour& c) { return std::tuple(c.shell, c.patch, c.loop); };
   const auto found = std::ranges::lower_bound(contours, std::tuple(shell, patch, loop), {}, key);
   return found != contours.end() && key(*found) == std::tuple(shell, patch, loop) ? &*found : nullptr;
-}
-
-Point start_of(const Curve& curve) {
-  return std::visit([](const auto& c) { return first_point(c); }, curve);
-}
-
-Point end_of(const Curve& curve) {
-  return std::visit([](const auto& c) { return last_point(c); }, curve);
-}
-
-std::vector<Point> sampled(const Curve& curve) {
-  std::vector<Point> points = {start_of(curve)};
-  std::visit([&](const auto& c) { add_samples(c, points); }, curve);
-  points.push_back(end_of(curve));
-  return points;
 }
 
 }  // namespace meshcontour::detail

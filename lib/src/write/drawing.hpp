@@ -40,11 +40,4 @@ std::vector<std::string> layers(const Result& result);
 const Contour* find_contour(std::span<const Contour> contours, std::size_t shell, std::size_t patch,
                             std::size_t loop);
 
-/// The ends of a curve.
-Point start_of(const Curve& curve);
-Point end_of(const Curve& curve);
-
-/// Points on the curve, both ends among them, close enough for display: 64 a turn, 16 a knot span.
-std::vector<Point> sampled(const Curve& curve);
-
 }  // namespace meshcontour::detail

@@ -1,6 +1,7 @@
 #include "base/escape.hpp"
 #include "base/text_writer.hpp"
 #include "write/drawing.hpp"
+#include "write/sampling.hpp"
 #include "write/writers.hpp"
 
 namespace meshcontour::detail {
@@ -126,7 +127,8 @@ void write_loops(const Result& result, std::size_t s, std::size_t p, TextWriter&
               l + 1, loops[l].vertices.size(), loops[l].closed,
               json_number(polygon_length(result.model.shells[s], loops[l])));
     write_segments(contour, out);
-    out.print(",\"deviation\":{}}}", contour != nullptr ? json_number(contour->deviation) : "null");
+    out.print(",\"deviation\":{}{}}}", contour != nullptr ? json_number(contour->deviation) : "null",
+              contour != nullptr && contour->fallback ? ",\"fallback\":true" : "");
   }
 }
 

@@ -1,10 +1,13 @@
 #include "base/escape.hpp"
 #include "base/text_writer.hpp"
 #include "write/drawing.hpp"
+#include "write/sampling.hpp"
 #include "write/writers.hpp"
 
 namespace meshcontour::detail {
 namespace {
+
+constexpr double kChordTolerance = 1e-4;  // of the curve's size, as for fits
 
 class ObjWriter {
  public:
@@ -22,19 +25,8 @@ class ObjWriter {
   std::uint64_t vertices_ = 0;  // written so far; indices are from 1 over the whole file
 };
 
-// The points of a chain, each joint once.
-std::vector<Point> points_of(const Chain& chain) {
-  std::vector<Point> points = chain.points;
-  for (const Curve& curve : chain.curves) {
-    const std::vector<Point> piece = sampled(curve);
-    points.insert(points.end(), piece.begin() + (points.empty() ? 0 : 1), piece.end());
-  }
-  if (chain.closed && chain.points.empty()) points.pop_back();
-  return points;
-}
-
 void ObjWriter::write_polyline(const Chain& chain) {
-  const std::vector<Point> points = points_of(chain);
+  const std::vector<Point> points = chain_points(chain, kChordTolerance * chain_size(chain));
   out_.print("o {}\n", one_word(chain.name));
   for (const Point& p : points) write_point(p);
   out_.text("l");

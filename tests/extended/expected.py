@@ -1,0 +1,182 @@
+"""What an export must hold: the loops of model.json, each instance placed, evaluated with numpy and scipy alone."""
+
+import csv
+import json
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.interpolate import BSpline
+
+FRACTIONS = np.linspace(0, 1, 9)
+
+
+@dataclass
+class Segment:
+    kind: str                 # line, arc, circle, ellipse, bspline
+    points: np.ndarray        # at FRACTIONS of its parameter
+    length: float
+    radius: float = 0.0       # of an arc or circle
+    full: bool = False        # a whole circle or ellipse: where it starts is not told by every format
+    dense: np.ndarray = None  # many points, for distances
+    center: np.ndarray = None
+
+
+@dataclass
+class Loop:
+    name: str
+    layer: str
+    closed: bool
+    segments: list = field(default_factory=list)
+    polygon: np.ndarray = None  # instead of segments
+
+    def ends(self):
+        return self.segments[0].points[0], self.segments[-1].points[-1]
+
+
+def rotation(axis, angle):
+    x, y, z = axis
+    k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + np.sin(angle) * k + (1 - np.cos(angle)) * (k @ k)
+
+
+def evaluator(s):
+    """The segment as a function of a fraction of its parameter."""
+    start, end = np.array(s["start"], float), np.array(s["end"], float)
+    if s["type"] == "line":
+        return lambda u: start + np.outer(u, end - start)
+    if s["type"] in ("arc", "circle"):
+        center, axis, angle = np.array(s["center"]), np.array(s["axis"]), s["angle"]
+        return lambda u: np.array([center + rotation(axis, t * angle) @ (start - center) for t in u])
+    if s["type"] == "ellipse":
+        center, axis, major = (np.array(s[k], float) for k in ("center", "axis", "major"))
+        minor = s["ratio"] * np.cross(axis, major)
+        first = np.arctan2((start - center) @ minor / (minor @ minor), (start - center) @ major / (major @ major))
+        return lambda u: np.array([center + np.cos(first + t * s["angle"]) * major + np.sin(first + t * s["angle"]) * minor for t in u])
+    knots, points, degree = np.array(s["knots"], float), np.array(s["control_points"], float), s["degree"]
+    weights = np.array(s.get("weights", np.ones(len(points))))
+    spline = BSpline(knots, np.column_stack([points * weights[:, None], weights]), degree)
+    low, high = knots[degree], knots[len(points)]
+
+    def evaluate(u):
+        h = spline(low + np.asarray(u) * (high - low))
+        return h[:, :3] / h[:, 3:]
+
+    return evaluate
+
+
+def breaks(s):
+    """Fractions between which the segment is smooth."""
+    if s["type"] != "bspline":
+        return np.linspace(0, 1, 9)
+    knots = np.array(s["knots"], float)
+    inner = np.unique(knots[s["degree"]:len(s["control_points"]) + 1])
+    return (inner - inner[0]) / (inner[-1] - inner[0])
+
+
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)
+
+
+def arc_length(s, matrix):
+    """By Gauss quadrature between the breaks, the speed by an exact derivative of what is integrated."""
+    linear = matrix[:3, :3]
+    total = 0.0
+    at = evaluator(s)
+    if s["type"] in ("line",):
+        return float(np.linalg.norm(linear @ (at([1.0]) - at([0.0]))[0]))
+    for a, b in zip(breaks(s)[:-1], breaks(s)[1:]):
+        u = (a + b) / 2 + NODES * (b - a) / 2
+        total += float(np.sum(WEIGHTS * np.linalg.norm(speed(s, u) @ linear.T, axis=1)) * (b - a) / 2)
+    return total
+
+
+def speed(s, u):
+    start = np.array(s["start"], float)
+    if s["type"] in ("arc", "circle"):
+        center, axis, angle = np.array(s["center"]), np.array(s["axis"], float), s["angle"]
+        return np.array([angle * np.cross(axis, rotation(axis, t * angle) @ (start - center)) for t in u])
+    if s["type"] == "ellipse":
+        center, axis, major = (np.array(s[k], float) for k in ("center", "axis", "major"))
+        minor = s["ratio"] * np.cross(axis, major)
+        first = np.arctan2((start - center) @ minor / (minor @ minor), (start - center) @ major / (major @ major))
+        t = first + np.asarray(u) * s["angle"]
+        return s["angle"] * (np.outer(np.cos(t), minor) - np.outer(np.sin(t), major))
+    knots, points, degree = np.array(s["knots"], float), np.array(s["control_points"], float), s["degree"]
+    weights = np.array(s.get("weights", np.ones(len(points))))
+    spline = BSpline(knots, np.column_stack([points * weights[:, None], weights]), degree)
+    low, high = knots[degree], knots[len(points)]
+    v = low + np.asarray(u) * (high - low)
+    h, d = spline(v), spline.derivative()(v)
+    return (high - low) * (d[:, :3] - h[:, :3] / h[:, 3:] * d[:, 3:]) / h[:, 3:]
+
+
+def place(points, matrix):
+    return np.asarray(points) @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def placed_segment(s, matrix):
+    at = evaluator(s)
+    scale = abs(np.linalg.det(matrix[:3, :3])) ** (1 / 3)
+    count = 33 if s["type"] != "bspline" else 1 + 8 * len(breaks(s))
+    return Segment(kind=s["type"], points=place(at(FRACTIONS), matrix), length=arc_length(s, matrix),
+                   radius=s.get("radius", 0.0) * scale, full=s["type"] == "circle" or abs(s.get("angle", 0) - 2 * np.pi) < 1e-12,
+                   dense=place(at(np.linspace(0, 1, count)), matrix),
+                   center=place([s["center"]], matrix)[0] if "center" in s else None)
+
+
+def placements(doc):
+    """(shell, matrix, suffix of the names) of each instance."""
+    ids = [instance["shell"] for instance in doc["instances"]]
+    number = {}
+    for instance in doc["instances"]:
+        shell = instance["shell"]
+        number[shell] = number.get(shell, 0) + 1
+        suffix = f"_instance_{number[shell]}" if ids.count(shell) > 1 else ""
+        yield shell, np.array(instance["placement"], float).reshape(4, 4).T, suffix
+
+
+def polygons(folder):
+    """The vertices of loops.csv, placed, by the loops' names."""
+    loops = {}
+    with open(folder / "loops.csv", encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            key = row["shell"], f"shell_{row['shell']}_patch_{row['patch']}_loop_{row['loop']}"
+            loops.setdefault(key, []).append([float(row[c]) for c in "xyz"])
+    with open(folder / "model.json", encoding="utf-8") as file:
+        doc = json.load(file)
+    return {name + suffix: place(points, matrix) for shell, matrix, suffix in placements(doc)
+            for (owner, name), points in loops.items() if owner == shell}
+
+
+def load(path):
+    """The expected loops in the order of the geometry files."""
+    with open(path, encoding="utf-8") as file:
+        doc = json.load(file)
+    loops = []
+    for shell, matrix, suffix in placements(doc):
+        for patch in doc["patches"]:
+            if patch["shell"] != shell:
+                continue
+            layer = f"shell_{shell}_patch_{patch['patch']}"
+            for loop in patch["loops"]:
+                entry = Loop(f"{layer}_loop_{loop['loop']}{suffix}", layer, loop["closed"])
+                segments = loop["segments"]
+                if loop.get("fallback"):
+                    entry.polygon = place([s["start"] for s in segments], matrix)
+                else:
+                    entry.segments = [placed_segment(s, matrix) for s in segments]
+                loops.append(entry)
+    for i, line in enumerate(doc.get("annotations", [])):
+        if len(line["points"]) > 1:
+            name = f"annotation_{line['name'] or i + 1}"
+            loops.append(Loop(name, name, False, polygon=np.array(line["points"], float)))
+    for i, curve in enumerate(doc.get("curves", [])):
+        name = f"curve_{curve['name'] or i + 1}"
+        closed = curve["start"] == curve["end"]
+        loops.append(Loop(name, name, closed, [placed_segment(curve, np.eye(4))]))
+    return loops
+
+
+def size_of(loops):
+    points = np.concatenate([loop.polygon if loop.polygon is not None else np.concatenate([s.points for s in loop.segments])
+                             for loop in loops])
+    return float(np.linalg.norm(np.ptp(points, axis=0)))
