@@ -1,51 +1,107 @@
 #include "fit/spline_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 
-#include "fit/calm.hpp"
 #include "fit/certificate.hpp"
+#include "fit/cleaning.hpp"
+#include "fit/parametrize.hpp"
+#include "fit/span_search.hpp"
 #include "fit/whole_loop.hpp"
 
 namespace meshcontour::detail {
 namespace {
 
-// Vertex error, certificate and verdict of a curve.
-void judge(SplineRun& run, std::span<const Point> points, const SplineRunOptions& options) {
-  const std::size_t n = points.size();
-  const std::vector<double> limits = calm_limits(points, options.closed, options.tolerance);
-  const double period = run.curve.domain().second - run.curve.domain().first;
-  double worst = -1;
-  bool calm = true;
-  for (std::size_t i = 0; i < limits.size(); ++i) {
-    const double end = i + 1 < n ? run.parameters[i + 1] : run.parameters[0] + period;
-    const double bound =
-        chord_deviation(run.curve, run.parameters[i], end, points[i], points[(i + 1) % n], limits[i]);
-    if (bound > limits[i]) calm = false;
-    if (bound / limits[i] > worst) {
-      worst = bound / limits[i];
-      run.worst_chord = i;
-    }
+// A power of two, so that scaling loses no bit.
+double unit_of(std::span<const Point> points) {
+  const double diagonal = box_diagonal(points);
+  return diagonal > 0 ? std::exp2(std::floor(std::log2(diagonal))) : 1;
+}
+
+NormalizedRun make_run(std::span<const Point> points, const SplineRunOptions& options, double unit) {
+  NormalizedRun run;
+  run.points.reserve(points.size());
+  for (const Point& p : points) run.points.push_back((p - points.front()) / unit);
+  run.tolerance = options.tolerance / unit;
+  run.closed = options.closed;
+  run.tangents = {options.start_tangent, options.end_tangent};
+  ChordGeometry geometry = chord_geometry(run.points, run.closed);
+  run.parameters = std::move(geometry.parameters);
+  run.limits = calm_limits(geometry.sagittas, run.tolerance);
+  return run;
+}
+
+void take(SplineRun& result, const SpanSearch& search, const RunSamples& samples) {
+  result.curve = search.curve();
+  result.parameters.clear();
+  for (std::size_t i = 0; i < samples.points.size(); i += samples.stride) {
+    result.parameters.push_back(search.parameters()[i]);
   }
-  run.deviation = spline_deviation(run.curve, points, run.parameters, options.closed);
-  run.accepted = calm && run.vertex_error <= options.tolerance;
+  result.vertex_error = search.vertex_error();
+  result.accepted = true;
+}
+
+// Fewer samples find the knots, all points the curve.
+bool fit_thinned(const NormalizedRun& run, const SampledRun& sampled, SplineRun& result) {
+  SplineFit few(sampled.samples);
+  SpanSearch among_few(few, sampled.samples, sampled.density);
+  const bool found = among_few.search();
+  RunSamples samples = all_samples(run);
+  if (found) samples.parameters = spread_parameters(run, sampled.samples, among_few.parameters());
+  SplineFit fit(samples);
+  SpanSearch search(fit, samples, among_few.density());
+  if (!(found && search.accept(among_few.breaks())) && !search.search()) return false;
+  take(result, search, samples);
+  return true;
+}
+
+bool fit_least_squares(const NormalizedRun& run, SplineRun& result) {
+  const SampledRun sampled = sample_run(run);
+  if (sampled.thinned) return fit_thinned(run, sampled, result);
+  SplineFit fit(sampled.samples);
+  SpanSearch search(fit, sampled.samples, sampled.density);
+  if (!search.search()) return false;
+  take(result, search, sampled.samples);
+  return true;
+}
+
+// The curve through all points, which is all that is left to try.
+void interpolate(const NormalizedRun& run, SplineRun& result) {
+  ParametrizedCurve through = interpolation(run.points, run.parameters, run.closed);
+  result.curve = std::move(through.curve);
+  result.parameters = std::move(through.parameters);
+  const std::size_t n = run.points.size();
+  double worst = 1;
+  for (std::size_t i = 0; i < run.limits.size(); ++i) {
+    const double excess = chord_deviation(result.curve, run.parameters[i], run.parameters[i + 1],
+                                          run.points[i], run.points[(i + 1) % n], run.limits[i]) /
+                          run.limits[i];
+    if (excess > worst) result.worst_chord = i;
+    worst = std::max(worst, excess);
+  }
+  result.accepted = worst <= 1;
+}
+
+void scale_back(SplineRun& result, std::span<const Point> points, double unit) {
+  for (Point& p : result.curve.control_points) p = points.front() + unit * p;
+  if (!result.curve.periodic) result.curve.control_points.back() = points.back();
+  for (double& t : result.curve.knots) t *= unit;
+  for (double& t : result.parameters) t *= unit;
+  result.vertex_error *= unit;
+  result.deviation *= unit;
 }
 
 }  // namespace
 
 SplineRun fit_spline_run(std::span<const Point> points, const SplineRunOptions& options) {
-  ParametrizedCurve fitted = options.closed       ? closed_interpolation(points)
-                             : points.size() == 3 ? open_control_curve(points)
-                                                  : open_interpolation(points);
-  if (!options.closed && points.size() == 3) {  // the parabola through the middle point
-    const Point middle = 2 * points[1] - (points[0] + points[2]) / 2;
-    fitted.curve.control_points[1] = (points[0] + 2 * middle) / 3;
-    fitted.curve.control_points[2] = (2 * middle + points[2]) / 3;
-  }
-  SplineRun run;
-  run.curve = std::move(fitted.curve);
-  run.parameters = std::move(fitted.parameters);
-  judge(run, points, options);
-  return run;
+  const double unit = unit_of(points);
+  const NormalizedRun run = make_run(points, options, unit);
+  SplineRun result;
+  const bool enough = points.size() > 3;
+  if (!enough || !fit_least_squares(run, result)) interpolate(run, result);
+  result.deviation = spline_deviation(result.curve, run.points, result.parameters, run.closed);
+  scale_back(result, points, unit);
+  return result;
 }
 
 }  // namespace meshcontour::detail

@@ -65,6 +65,16 @@ struct SlopeSystem {
     }
   }
 
+  // The third derivative is continuous at the second knot, or the last but one: the steps next to the end and
+  // beyond, and the slopes of their chords.
+  void set_end_row(std::size_t i, double step, double beyond, const Vector& chord,
+                   const Vector& chord_beyond) {
+    const double both = step + beyond, scale = 1 / both;
+    diagonal[i] = beyond * scale;
+    (i == 0 ? upper : lower)[i] = 1;
+    right[i] = scale * scale * ((step + 2 * both) * beyond * chord + step * step * chord_beyond);
+  }
+
   // The slopes of an open chain.
   std::vector<Vector> solve_open() {
     std::vector<double> unused(right.size(), 0);
@@ -89,43 +99,24 @@ struct SlopeSystem {
   }
 };
 
-// The control point of the cubic spline whose three knots are the one with this position and slope and its
-// neighbours: the blossom there, from the second derivative.
-Point control_point(const Point& position, const Vector& slope, const Vector& second, double before,
-                    double after) {
-  return position + (after - before) / 3 * slope - before * after / 6 * second;
-}
+// A cubic by its Taylor coefficients at the start of a step.
+struct HermitePiece {
+  Point position;
+  Vector first, second, third;  // the derivatives over 1, 2 and 6
 
-// Second derivative at the start of a cubic Hermite piece.
-Vector second_derivative(const Vector& chord, const Vector& slope, const Vector& next_slope, double step) {
-  return (6 * chord - 4 * slope - 2 * next_slope) / step;
-}
-
-// Derivative at the first parameter of the polynomial through up to four points, by divided differences.
-Vector end_slope(std::span<const Point> points, std::span<const double> t) {
-  const std::size_t count = std::min<std::size_t>(4, points.size());
-  std::array<Vector, 4> difference;
-  for (std::size_t i = 0; i < count; ++i) difference[i] = points[i];
-  Vector slope = Vector::Zero();
-  double factor = 1;
-  for (std::size_t order = 1; order < count; ++order) {
-    for (std::size_t i = 0; i + order < count; ++i) {
-      difference[i] = (difference[i + 1] - difference[i]) / (t[i + order] - t[i]);
-    }
-    slope += factor * difference[0];
-    factor *= t[0] - t[order];
+  HermitePiece(const Point& start, const Point& end, const Vector& slope, const Vector& end_slope,
+               double step)
+      : position(start), first(slope) {
+    const Vector chord = (end - start) / step;
+    second = (3 * chord - 2 * slope - end_slope) / step;
+    third = (slope + end_slope - 2 * chord) / (step * step);
   }
-  return slope;
-}
 
-// The same at the last parameter.
-Vector last_slope(std::span<const Point> points, std::span<const double> t) {
-  const std::size_t count = std::min<std::size_t>(4, points.size());
-  const std::vector<Point> reversed_points(points.rbegin(),
-                                           points.rbegin() + static_cast<std::ptrdiff_t>(count));
-  const std::vector<double> reversed_t(t.rbegin(), t.rbegin() + static_cast<std::ptrdiff_t>(count));
-  return end_slope(reversed_points, reversed_t);
-}
+  // The blossom at three parameters, counted from the start.
+  Point blossom(double a, double b, double c) const {
+    return position + (a + b + c) / 3 * first + (a * b + a * c + b * c) / 3 * second + a * b * c * third;
+  }
+};
 
 std::vector<double> clamped_knots(std::span<const double> t) {
   std::vector<double> knots(3, t.front());
@@ -144,6 +135,69 @@ std::vector<double> periodic_knots(std::span<const double> t) {
   knots.insert(knots.end(), t.begin(), t.end());
   for (std::size_t k = 1; k <= 3; ++k) knots.push_back(t[k] + period);
   return knots;
+}
+
+ParametrizedCurve interpolate_loop(std::span<const Point> points, std::span<const double> t) {
+  const std::size_t n = points.size();
+  const auto step = [&](std::size_t i) { return t[i + 1] - t[i]; };
+  const auto chord = [&](std::size_t i) -> Vector { return (points[(i + 1) % n] - points[i]) / step(i); };
+  SlopeSystem system;
+  system.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t before = (i + n - 1) % n;
+    system.set_row(i, step(before), step(i), chord(before), chord(i));
+  }
+  const std::vector<Vector> slopes = system.solve_closed();
+  ParametrizedCurve result;
+  result.curve.periodic = true;
+  result.curve.knots = periodic_knots(t);
+  result.parameters.assign(t.begin(), t.end() - 1);
+  result.curve.control_points.reserve(n + 3);
+  for (std::size_t k = 0; k < n + 3; ++k) {  // control point k has its middle knot at point k - 1
+    const std::size_t i = (k + n - 1) % n, next = (i + 1) % n;
+    const HermitePiece piece(points[i], points[next], slopes[i], slopes[next], step(i));
+    result.curve.control_points.push_back(piece.blossom(-step((i + n - 1) % n), 0, step(i)));
+  }
+  return result;
+}
+
+// The slopes at the knots of the spline through an open chain.
+std::vector<Vector> chain_slopes(std::span<const Point> points, std::span<const double> t) {
+  const std::size_t n = points.size();
+  const auto step = [&](std::size_t i) { return t[i + 1] - t[i]; };
+  const auto chord = [&](std::size_t i) -> Vector { return (points[i + 1] - points[i]) / step(i); };
+  if (n == 2) return {chord(0), chord(0)};
+  if (n == 3) {
+    const Vector middle = (step(1) * chord(0) + step(0) * chord(1)) / (step(0) + step(1));
+    return {2 * chord(0) - middle, middle, 2 * chord(1) - middle};
+  }
+  SlopeSystem system;
+  system.resize(n);
+  system.set_end_row(0, step(0), step(1), chord(0), chord(1));
+  for (std::size_t i = 1; i + 1 < n; ++i) system.set_row(i, step(i - 1), step(i), chord(i - 1), chord(i));
+  system.set_end_row(n - 1, step(n - 2), step(n - 3), chord(n - 2), chord(n - 3));
+  return system.solve_open();
+}
+
+ParametrizedCurve interpolate_chain(std::span<const Point> points, std::span<const double> t) {
+  const std::size_t n = points.size();
+  const std::vector<Vector> slopes = chain_slopes(points, t);
+  std::vector<double> breaks{t.front()};
+  if (n > 4) breaks.insert(breaks.end(), t.begin() + 2, t.end() - 2);
+  breaks.push_back(t.back());
+  ParametrizedCurve result;
+  result.parameters.assign(t.begin(), t.end());
+  result.curve.knots = clamped_knots(breaks);
+  const std::vector<double>& knots = result.curve.knots;
+  result.curve.control_points.push_back(points.front());
+  for (std::size_t k = 1; k + 5 < knots.size(); ++k) {  // at a point near the middle knot
+    const std::size_t i = n < 4 ? 0 : std::clamp<std::size_t>(k, 1, n - 2);
+    const HermitePiece piece(points[i], points[i + 1], slopes[i], slopes[i + 1], t[i + 1] - t[i]);
+    result.curve.control_points.push_back(
+        piece.blossom(knots[k + 1] - t[i], knots[k + 2] - t[i], knots[k + 3] - t[i]));
+  }
+  result.curve.control_points.push_back(points.back());
+  return result;
 }
 
 }  // namespace
@@ -180,56 +234,16 @@ ParametrizedCurve open_control_curve(std::span<const Point> points) {
 }
 
 ParametrizedCurve closed_interpolation(std::span<const Point> points) {
-  const std::size_t n = points.size();
-  const std::vector<double> t = chord_length_parameters(points, true);
-  const auto step = [&](std::size_t i) { return t[i + 1] - t[i]; };
-  const auto chord = [&](std::size_t i) -> Vector { return (points[(i + 1) % n] - points[i]) / step(i); };
-  SlopeSystem system;
-  system.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t before = (i + n - 1) % n;
-    system.set_row(i, step(before), step(i), chord(before), chord(i));
-  }
-  const std::vector<Vector> slopes = system.solve_closed();
-  ParametrizedCurve result;
-  result.curve.periodic = true;
-  result.curve.knots = periodic_knots(t);
-  result.parameters.assign(t.begin(), t.end() - 1);
-  result.curve.control_points.reserve(n + 3);
-  for (std::size_t k = 0; k < n + 3; ++k) {  // control point k has its middle knot at point k - 1
-    const std::size_t i = (k + n - 1) % n;
-    const Vector second = second_derivative(chord(i), slopes[i], slopes[(i + 1) % n], step(i));
-    result.curve.control_points.push_back(
-        control_point(points[i], slopes[i], second, step((i + n - 1) % n), step(i)));
-  }
-  return result;
+  return interpolation(points, chord_length_parameters(points, true), true);
 }
 
 ParametrizedCurve open_interpolation(std::span<const Point> points) {
-  const std::size_t n = points.size();
-  ParametrizedCurve result;
-  std::vector<double>& t = result.parameters;
-  t = chord_length_parameters(points, false);
-  const auto step = [&](std::size_t i) { return t[i + 1] - t[i]; };
-  const auto chord = [&](std::size_t i) -> Vector { return (points[i + 1] - points[i]) / step(i); };
-  SlopeSystem system;
-  system.resize(n);
-  system.right[0] = end_slope(points, t);
-  system.right[n - 1] = last_slope(points, t);
-  for (std::size_t i = 1; i + 1 < n; ++i) system.set_row(i, step(i - 1), step(i), chord(i - 1), chord(i));
-  const std::vector<Vector> slopes = system.solve_open();
-  result.curve.knots = clamped_knots(t);
-  result.curve.control_points.reserve(n + 2);
-  result.curve.control_points.push_back(points.front());
-  for (std::size_t i = 0; i < n; ++i) {
-    const bool last = i + 1 == n;
-    const Vector second =
-        last ? Vector::Zero() : second_derivative(chord(i), slopes[i], slopes[i + 1], step(i));
-    result.curve.control_points.push_back(
-        control_point(points[i], slopes[i], second, i == 0 ? 0 : step(i - 1), last ? 0 : step(i)));
-  }
-  result.curve.control_points.push_back(points.back());
-  return result;
+  return interpolation(points, chord_length_parameters(points, false), false);
+}
+
+ParametrizedCurve interpolation(std::span<const Point> points, std::span<const double> parameters,
+                                bool closed) {
+  return closed ? interpolate_loop(points, parameters) : interpolate_chain(points, parameters);
 }
 
 }  // namespace meshcontour::detail

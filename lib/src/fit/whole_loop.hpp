@@ -28,8 +28,13 @@ ParametrizedCurve open_control_curve(std::span<const Point> points);
 /// diagonally dominant.
 ParametrizedCurve closed_interpolation(std::span<const Point> points);
 
-/// The same for an open chain of at least 2 points; the end derivatives are those of the cubic through the
-/// four points at that end, or of the polynomial through all if there are fewer.
+/// The same for an open chain of at least 2 points, without knots at the second and the last but one of four
+/// or more (not-a-knot); through two or three points the polynomial.
 ParametrizedCurve open_interpolation(std::span<const Point> points);
+
+/// The same with given parameters, one a point and increasing, from 0; for a closed loop the first point's
+/// again at the end.
+ParametrizedCurve interpolation(std::span<const Point> points, std::span<const double> parameters,
+                                bool closed);
 
 }  // namespace meshcontour::detail

@@ -1,0 +1,71 @@
+#pragma once
+
+// One least-squares spline of a run: knots in, curve, footpoints and errors out.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fit/least_squares.hpp"
+#include "fit/run_samples.hpp"
+#include "meshcontour/curve.hpp"
+
+namespace meshcontour::detail {
+
+/// A cubic with given knots that is moved to the points by turns: control points by least squares, parameters
+/// to the nearest points of the curve by Newton's method [Hoschek 1988]. Memory is kept from fit to fit.
+class SplineFit {
+ public:
+  explicit SplineFit(const RunSamples& samples);
+
+  /// Fits with these knots, from the parameters of the fit before.
+  ///
+  /// @param breaks  from 0 to the end.
+  /// @return        false if the points do not determine the curve.
+  bool fit(std::span<const double> breaks, int rounds);
+
+  const BSplineCurve& curve() const { return curve_; }
+  const std::vector<double>& parameters() const { return parameters_; }
+  void set_parameters(std::span<const double> parameters) {
+    parameters_.assign(parameters.begin(), parameters.end());
+  }
+
+  /// Largest distance of a point to the curve.
+  double vertex_error() const { return vertex_error_; }
+
+  /// Whether all points lie within the tolerance and the curve within the limits of all chords. On the way,
+  /// `excess` of the farthest chord and point in each span, relative to what is allowed.
+  bool accepted();
+
+  /// For each span, the largest error of its points as a multiple of the tolerance, or of its chords as one
+  /// of the excess over their limits; after accepted().
+  const std::vector<double>& span_errors() const { return span_errors_; }
+  double worst_error() const { return worst_error_; }
+  std::size_t worst_chord() const { return worst_chord_; }
+
+ private:
+  struct Piece {  // C(begin + s) = c0 + s c1 + s^2 c2 + s^3 c3
+    double begin;
+    Vector c0, c1, c2, c3;
+  };
+
+  void set_knots(std::span<const double> breaks);
+  void update_pieces();
+  void move_footpoints();
+  std::size_t piece_at(double& u, std::size_t hint) const;
+  double chord_bound(std::size_t i);
+
+  const RunSamples& run_;
+  std::vector<double> parameters_, previous_;
+  CubicLeastSquares solver_;
+  BSplineCurve curve_;
+  std::vector<Piece> pieces_;
+  std::vector<double> errors_;         // distance of each point to the curve at its parameter
+  std::vector<double> accelerations_;  // |C''| there
+  std::vector<std::uint32_t> spans_;   // the piece it lies on
+  std::vector<double> span_errors_;
+  double vertex_error_ = 0, worst_error_ = 0;
+  std::size_t worst_chord_ = 0;
+};
+
+}  // namespace meshcontour::detail
