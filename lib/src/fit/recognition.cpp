@@ -202,8 +202,8 @@ double description_cost(const std::vector<Piece>& pieces) {
       cost += 10;
     } else {
       const auto& spline = std::get<BSplineCurve>(piece.curve);
-      const double spans = static_cast<double>(spline.control_points.size()) - 3;
-      cost += 3 * spans + std::max(0.0, spans - 4) + 1;
+      const double points = static_cast<double>(spline.control_points.size()) - (spline.periodic ? 3 : 0);
+      cost += 3 * points + std::max(0.0, points - 4) + 1;  // coordinates and inner knots
     }
   }
   return cost;

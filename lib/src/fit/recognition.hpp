@@ -43,8 +43,8 @@ class SplineCache {
   std::map<std::tuple<std::size_t, std::size_t, bool>, SplineRun> runs_;  // by the ends in the chain
 };
 
-/// Length of a description: 4 a line, 7 an arc, 8 a circle, 10 an ellipse, 3 a span of a spline and more for
-/// long ones.
+/// Length of a description: 4 a line, 7 an arc, 8 a circle, 10 an ellipse; a spline 1, 3 a control point
+/// and 1 an inner knot.
 double description_cost(const std::vector<Piece>& pieces);
 
 /// Takes a chain apart into lines, arcs, ellipses and B-splines.
