@@ -125,13 +125,14 @@ class Parser {
 
   void object() {
     const std::string_view type = in_.name("an object");
-    const Spot spot = in_.spot(printable(type));
+    Spot spot = in_.spot(std::string(type));
     if (!is_type(type) && in_.at_end()) unknown_type(type, spot);
     const std::string_view name = in_.name("a name");
     if (name != "." && entries_.contains(name)) {
       in_.fail("duplicate-name", fmt::format("expected a new name, found {} again", in_quotes(name)));
     }
     if (!is_type(type)) unknown_type(type, spot);
+    if (name != ".") spot.element = fmt::format("{} {}", type, name);
     const bool is_curve = type != "srev" && type != "gcyl";
     const std::size_t index = is_curve ? scene_.curves.size() : scene_.surfaces.size();
     if (is_curve) {

@@ -21,6 +21,26 @@ double degrees(double radians) {
   return radians * 180 / std::numbers::pi;
 }
 
+// Normals of the grid before it is flipped.
+class CylinderNormals {
+ public:
+  CylinderNormals(const Profile& profile, const Rings& rings) : profile_(profile), rings_(rings) {}
+
+  bool smooth(std::size_t ring) const { return rings_.rings[ring].corner == 0; }
+  bool smooth_column(std::size_t column) const { return !is_corner(profile_.points[column]); }
+
+  Vector at(std::size_t ring, Side ring_side, std::size_t column, Side side) const {
+    const Ring& r = rings_.rings[ring];
+    const ProfilePoint& p = profile_.points[column];
+    return (ring_side == Side::Before ? r.before : r.after)
+        .surface_normal(p.position, side == Side::Before ? p.before : p.after);
+  }
+
+ private:
+  const Profile& profile_;
+  const Rings& rings_;
+};
+
 std::vector<Region> regions_of(const Profile& profile, const Rings& rings) {
   const std::vector<Range> runs = smooth_runs(rings);
   std::vector<Region> regions;
@@ -136,13 +156,7 @@ void build_tube(const SurfaceTask& task, const Profile& profile, const Rings& ri
   const bool inside_out = closed && signed_volume(shell, 0) < 0;
   if (inside_out) flip_triangles(shell, 0);
   if (inside_out) grid.flip = !grid.flip;
-  const auto normal = [&](std::size_t ring, Side ring_side, std::size_t column, Side column_side) {
-    const Ring& r = rings.rings[ring];
-    const ProfilePoint& p = profile.points[column];
-    return (ring_side == Side::Before ? r.before : r.after)
-        .surface_normal(p.position, column_side == Side::Before ? p.before : p.after);
-  };
-  append_normals(grid, regions, normal, 0, threads, shell);
+  append_normals(grid, regions, CylinderNormals(profile, rings), 0, threads, shell);
   if (!caps.empty()) append_cap_normals(rings, inside_out, first_cap, shell);
 }
 

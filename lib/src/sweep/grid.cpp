@@ -2,54 +2,31 @@
 
 namespace meshcontour::detail {
 
-std::size_t Grid::point_count() const {
-  const std::size_t poles = (first_pole ? 1U : 0U) + (last_pole ? 1U : 0U);
-  return rings * (columns - poles) + poles;
-}
-
-bool Grid::is_pole(std::size_t column) const {
-  return (first_pole && column == 0) || (last_pole && column + 1 == columns);
-}
-
-Index Grid::point(std::size_t ring, std::size_t column) const {
-  ring %= rings;
-  column %= columns;
-  if (first_pole && column == 0) return static_cast<Index>(base);
-  if (last_pole && column + 1 == columns) return static_cast<Index>(base + point_count() - 1);
-  const std::size_t before = first_pole ? 1 : 0;
-  const std::size_t width = columns - before - (last_pole ? 1 : 0);
-  return static_cast<Index>(base + before + ring * width + column - before);
-}
-
-CellTriangles cell_triangles(const Grid& grid, std::size_t span) {
-  CellTriangles cell{{{{0, 1, 2}, {2, 1, 3}}}};
-  if (grid.flip) cell.corners = {{{0, 2, 1}, {2, 3, 1}}};
-  if (grid.is_pole(span % grid.columns)) cell.first = 1;
-  if (grid.is_pole((span + 1) % grid.columns)) cell.last = 1;
-  return cell;
-}
-
-std::size_t triangles_in_strip(const Grid& grid, const Region& region) {
-  std::size_t count = 2 * region.spans.size();
-  if (grid.first_pole && region.spans.begin == 0) --count;
-  if (grid.last_pole && region.spans.end + 1 == grid.columns) --count;
+std::size_t triangles_in_strip(const Grid& grid, const Range& spans) {
+  std::size_t count = 2 * spans.size();
+  if (grid.first_pole && spans.begin == 0) --count;
+  if (grid.last_pole && spans.end + 1 == grid.columns) --count;
   return count;
 }
 
 void append_triangles(const Grid& grid, const std::vector<Region>& regions, unsigned threads, Shell& shell) {
   for (const Region& region : regions) {
-    const std::size_t first = shell.triangles.size(), row = triangles_in_strip(grid, region);
-    shell.triangles.resize(first + row * region.strips.size());
+    const std::size_t first = shell.triangles.size(), row = triangles_in_strip(grid, region.spans);
+    grow(shell.triangles, first + row * region.strips.size());
     shell.patches.push_back({region.name, shell.color, first, row * region.strips.size()});
     const auto fill_strip = [&](std::size_t strip, std::size_t triangle) {
+      const std::size_t ring = strip % grid.rings, next_ring = grid.next_ring(ring);
+      std::size_t column = region.spans.begin % grid.columns;
       for (std::size_t span = region.spans.begin; span < region.spans.end; ++span) {
-        const CellTriangles cell = cell_triangles(grid, span);
-        const std::array<Index, 4> points = {grid.point(strip, span), grid.point(strip, span + 1),
-                                             grid.point(strip + 1, span), grid.point(strip + 1, span + 1)};
+        const std::size_t next = grid.next_column(column);
+        const CellTriangles cell = cell_triangles(grid, column);
+        const std::array<Index, 4> points = {grid.point(ring, column), grid.point(ring, next),
+                                             grid.point(next_ring, column), grid.point(next_ring, next)};
         for (std::size_t k = cell.first; k < cell.last; ++k) {
           const auto& [a, b, c] = cell.corners[k];
           shell.triangles[triangle++] = {points[a], points[b], points[c]};
         }
+        column = next;
       }
     };
     parallel_for(region.strips.size(), grain_of(row), threads, [&](std::size_t begin, std::size_t end) {
@@ -75,9 +52,23 @@ double signed_volume(const Shell& shell, std::size_t first_triangle) {
   return sum;
 }
 
-Vector agreeing_normal(const Vector& normal, const Vector& area_vector) {
-  if (normal.dot(area_vector) > 0 || area_vector == Vector::Zero()) return normal;
-  return area_vector.normalized();
+void fill_strip_normals(const Grid& grid, const Range& spans, const RowOfNormals& near,
+                        const RowOfNormals& far, std::size_t triangle, Shell& shell) {
+  const double sign = grid.flip ? -1 : 1;
+  std::size_t column = spans.begin % grid.columns;
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    const std::array<Vector, 4> normals = {sign * near[2 * i + 1], sign * near[2 * i + 2],
+                                           sign * far[2 * i + 1], sign * far[2 * i + 2]};
+    const CellTriangles cell = cell_triangles(grid, column);
+    for (std::size_t k = cell.first; k < cell.last; ++k, ++triangle) {
+      const auto& [a, b, c] = shell.triangles[triangle];
+      const Vector area = (shell.points[b] - shell.points[a]).cross(shell.points[c] - shell.points[a]);
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        shell.corner_normals[3 * triangle + corner] = agreeing_normal(normals[cell.corners[k][corner]], area);
+      }
+    }
+    column = grid.next_column(column);
+  }
 }
 
 }  // namespace meshcontour::detail

@@ -33,12 +33,15 @@ Axis make_axis(SweepSurface::Kind kind, std::size_t rings) {
 }
 
 // Normals of the grid before it is flipped: S_t x S_theta.
-class RevolutionNormal {
+class RevolutionNormals {
  public:
-  RevolutionNormal(const Bead& bead, const Axis& axis)
+  RevolutionNormals(const Bead& bead, const Axis& axis)
       : bead_(bead), axis_(axis), sign_(bead.right_of_axis() ? -1 : 1) {}
 
-  Vector operator()(std::size_t ring, Side, std::size_t column, Side side) const {
+  bool smooth(std::size_t) const { return true; }
+  bool smooth_column(std::size_t column) const { return !is_corner(bead_.profile.points[column]); }
+
+  Vector at(std::size_t ring, Side, std::size_t column, Side side) const {
     if (bead_.first_pole && column == 0) return axis_.direction;
     if (bead_.last_pole && column + 1 == bead_.profile.points.size()) return -axis_.direction;
     const ProfilePoint& point = bead_.profile.points[column];
@@ -96,7 +99,7 @@ void build_bead(const SurfaceTask& task, const Bead& bead, const Axis& axis, std
     flip_triangles(shell, first_triangle);
     grid.flip = !grid.flip;
   }
-  append_normals(grid, regions, RevolutionNormal(bead, axis), first_triangle, threads, shell);
+  append_normals(grid, regions, RevolutionNormals(bead, axis), first_triangle, threads, shell);
 }
 
 void warn_of_coincidence(const SurfaceTask& task, const std::vector<Bead>& beads) {

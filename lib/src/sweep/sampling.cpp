@@ -15,7 +15,7 @@ constexpr double kSameTangent = 1 - 1e-9;
 
 enum class Side { Before, After };
 
-using Basis = Eigen::MatrixXd;  // row k: the k-th derivatives of the four basis functions of a piece
+using Basis = Eigen::Matrix4d;  // row k: the k-th derivatives of the four basis functions of a piece
 
 // Nodes and weights on [0, 1] of the 5-point Gauss-Legendre rule [Abramowitz & Stegun 1964, table 25.4].
 struct GaussNode {
@@ -29,12 +29,30 @@ constexpr std::array<GaussNode, 5> kGauss = {{
     {0.5 + 0.5 * 0.9061798459386640, 0.5 * 0.2369268850561891},
 }};
 
-// All pieces of a chain have the same basis functions, with each piece over [0, 1].
-Basis piece_basis(SweepCurve::Kind kind, double t, int order) {
-  static const std::vector<double> bezier = {0, 0, 0, 0, 1, 1, 1, 1};
-  static const std::vector<double> uniform = {-3, -2, -1, 0, 1, 2, 3, 4};
-  return basis_functions(kind == SweepCurve::Kind::Bezier ? bezier : uniform, 3, 3, t, order);
-}
+// The basis functions of a piece over [0, 1]; all pieces of a chain have the same. They are cubic, so that
+// their derivatives at 0 say all about them.
+class PieceBasis {
+ public:
+  explicit PieceBasis(SweepCurve::Kind kind) {
+    static const std::vector<double> bezier = {0, 0, 0, 0, 1, 1, 1, 1};
+    static const std::vector<double> uniform = {-3, -2, -1, 0, 1, 2, 3, 4};
+    at_start_ = basis_functions(kind == SweepCurve::Kind::Bezier ? bezier : uniform, 3, 3, 0, 3);
+  }
+
+  Basis at(double t) const {
+    Basis basis = at_start_;
+    for (int k = 0; k < 3; ++k) {
+      for (int m = 3; m > k; --m) basis.row(k) += power(t, m - k) * at_start_.row(m);
+    }
+    return basis;
+  }
+
+ private:
+  // t^m / m!
+  static double power(double t, int m) { return m == 1 ? t : m == 2 ? t * t / 2 : t * t * t / 6; }
+
+  Basis at_start_;
+};
 
 // One cubic piece: its control points, and how to combine them.
 class Piece {
@@ -114,9 +132,10 @@ SampledCurve sample_circle(const SweepCurve& curve) {
 // exactly.
 void fill_samples(const SweepCurve& curve, SampledCurve& result) {
   const std::size_t pieces = curve.pieces(), steps = static_cast<std::size_t>(curve.steps);
+  const PieceBasis functions(curve.kind);
   result.standstill = standstill_of(curve);
   for (std::size_t j = 0; j <= steps; ++j) {
-    const Basis basis = piece_basis(curve.kind, static_cast<double>(j) / static_cast<double>(steps), 3);
+    const Basis basis = functions.at(static_cast<double>(j) / static_cast<double>(steps));
     for (std::size_t i = 0; i < pieces; ++i) {
       const Piece piece(curve, i);
       CurveSample& sample = result.samples[i * steps + j];
@@ -133,9 +152,10 @@ void fill_samples(const SweepCurve& curve, SampledCurve& result) {
 void fill_arc_lengths(const SweepCurve& curve, SampledCurve& result) {
   const std::size_t pieces = curve.pieces(), steps = static_cast<std::size_t>(curve.steps);
   const double step = 1 / static_cast<double>(curve.steps);
+  const PieceBasis functions(curve.kind);
   for (std::size_t j = 0; j < steps; ++j) {
     for (const GaussNode& node : kGauss) {
-      const Basis basis = piece_basis(curve.kind, (static_cast<double>(j) + node.position) * step, 1);
+      const Basis basis = functions.at((static_cast<double>(j) + node.position) * step);
       for (std::size_t i = 0; i < pieces; ++i) {
         const double speed = Piece(curve, i).derivative(basis, 1).norm();
         result.samples[i * steps + j + 1].arc += node.weight * step * speed;
@@ -206,7 +226,7 @@ SampledCurve sample_curve(const SweepCurve& curve) {
 CurveSample sample_at(const SweepCurve& spline, double standstill, double parameter) {
   const double u = parameter / static_cast<double>(spline.steps);
   const std::size_t index = std::min(static_cast<std::size_t>(u), spline.pieces() - 1);
-  const Basis basis = piece_basis(spline.kind, u - static_cast<double>(index), 3);
+  const Basis basis = PieceBasis(spline.kind).at(u - static_cast<double>(index));
   const Piece piece(spline, index);
   CurveSample sample;
   sample.position = piece.position(basis);

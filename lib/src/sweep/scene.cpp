@@ -112,9 +112,13 @@ class SceneBuilder {
     model_.diagnostics.push_back({Diagnostic::Severity::Warning, std::move(message), spot});
   }
 
+  void note(std::string message, const Spot& spot) {
+    model_.diagnostics.push_back({Diagnostic::Severity::Note, std::move(message), spot});
+  }
+
   void add_curve(std::size_t index) {
     const SweepCurve& curve = scene_.curves[index];
-    if (is_point(curve)) return warn("the curve is a single point", curve.spot);
+    if (is_point(curve)) return note("the curve is a single point, and is left out", curve.spot);
     NamedCurve named{names_.name(curve.name, "curve", index), to_curve(curve), {}};
     frames_ += static_cast<double>(sample_count(curve));
     if (frames_ <= static_cast<double>(options_.max_frames)) {
