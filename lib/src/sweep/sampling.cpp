@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kSameFraction = 1e-9;  // of the size: points closer than this are one
 constexpr double kStandstill = 1e-10;   // of the size: a derivative shorter than this vanishes
+constexpr double kRoundOff = 1e-14;     // of the distance from the origin: a box no larger is one point
 constexpr double kSameTangent = 1 - 1e-9;
 
 enum class Side { Before, After };
@@ -215,7 +216,8 @@ SampledCurve sample_curve(const SweepCurve& curve) {
   SampledCurve result = circle ? sample_circle(curve) : sample_spline(curve);
   Box box;
   for (const CurveSample& sample : result.samples) box.extend(sample.position);
-  result.size = box.diagonal().norm();
+  const double reach = std::max(box.min().norm(), box.max().norm());
+  result.size = box.diagonal().norm() > kRoundOff * reach ? box.diagonal().norm() : 0;
   if (circle) return result;
   const CurveSample &first = result.samples.front(), &last = result.samples.back();
   result.closed = (last.position - first.position).norm() <= kSameFraction * result.size;

@@ -4,8 +4,10 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "meshcontour/boundary.hpp"
+#include "read/swp.hpp"
 #include "support/catch.hpp"
 #include "survey.hpp"
 
@@ -50,7 +52,66 @@ void check_surface(const Shell& shell, const json& expected) {
   check_value(found.volume, expected.at("volume"));
 }
 
+double degrees(double radians) {
+  return radians * 180 / std::numbers::pi;
+}
+
+Vector vector_of(const json& numbers) {
+  return Vector(numbers[0].get<double>(), numbers[1].get<double>(), numbers[2].get<double>());
+}
+
+double largest_turn(const std::vector<CurveFrame>& frames) {
+  double largest = 0;
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    const Vector &a = frames[i - 1].normal, &b = frames[i].normal;
+    largest = std::max(largest, std::atan2(a.cross(b).norm(), a.dot(b)));
+  }
+  return largest;
+}
+
+void check_frames(const SweepCurve& curve, const FramedCurve& framed, const json& expected) {
+  CHECK((framed.frames.front().tangent - vector_of(expected.at("first_T"))).norm() < 1e-9);
+  CHECK((framed.frames.front().normal - vector_of(expected.at("first_N"))).norm() < 1e-9);
+  CHECK((framed.frames.front().binormal - vector_of(expected.at("first_B"))).norm() < 1e-9);
+  CHECK(degrees(framed.closing_angle) == Approx(expected.at("closing_angle_deg_rmf")).margin(1e-5));
+  CHECK(degrees(largest_turn(framed.frames)) ==
+        Approx(expected.at("max_consecutive_N_angle_deg")).margin(0.01));
+  SweepOptions options;
+  options.frames = FrameMethod::Projection;
+  CHECK(degrees(frame_curve(curve, options).closing_angle) ==
+        Approx(expected.at("closing_angle_deg_pdf")).margin(1e-5));
+}
+
+void check_curve(const SweepCurve& curve, const json& expected) {
+  INFO(expected.at("name"));
+  const FramedCurve framed = frame_curve(curve);
+  CHECK(framed.frames.size() == expected.at("points"));
+  CHECK(framed.closed == expected.at("closed"));
+  CHECK(framed.smooth == expected.at("smooth_closed"));
+  CHECK((framed.frames.front().position - vector_of(expected.at("first"))).norm() < 1e-9);
+  CHECK((framed.frames.back().position - vector_of(expected.at("last"))).norm() < 1e-9);
+  CHECK(framed.length == Approx(expected.at("length")).epsilon(1e-8));
+  if (curve.radius > 0 || curve.kind != SweepCurve::Kind::Circle) {
+    CHECK(length(to_curve(curve)) == Approx(expected.at("length")).epsilon(1e-9));
+  }
+  if (expected.contains("first_N")) check_frames(curve, framed, expected);
+}
+
 }  // namespace
+
+TEST_CASE("sweeps: points, lengths and frames of every curve are those of another program", "[sweep]") {
+  std::size_t curves = 0;
+  for (const auto& [name, file] : expected_files().items()) {
+    if (!file.at("parse").at("ok")) continue;
+    INFO(name);
+    const SweepScene scene = detail::parse_swp(data_bytes(name), name);
+    REQUIRE(scene.curves.size() == file.at("curves").size());
+    for (std::size_t i = 0; i < scene.curves.size(); ++i, ++curves) {
+      check_curve(scene.curves[i], file.at("curves")[i]);
+    }
+  }
+  CHECK(curves == 24);
+}
 
 TEST_CASE("sweeps: every surface is what another program makes of it", "[sweep]") {
   std::size_t surfaces = 0;
