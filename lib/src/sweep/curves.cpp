@@ -75,7 +75,7 @@ FramedCurve frame_curve(const SweepCurve& curve, const SweepOptions& options) {
   framed.closed = samples.closed;
   framed.smooth = samples.smooth;
   framed.length = samples.length;
-  if (!samples.samples.front().after.known()) return framed;
+  if (!samples.has_tangents()) return framed;
   const CarriedFrames frames = carry_frames(samples, options.frames);
   framed.closing_angle = frames.closing_angle;
   framed.frames = frames_of(samples, frames);

@@ -85,7 +85,7 @@ double signed_volume(const Shell& shell, std::size_t first_triangle);
 /// The analytic normal where it agrees with the triangle, else the triangle's own.
 inline Vector agreeing_normal(const Vector& normal, const Vector& area_vector) {
   if (normal.dot(area_vector) > 0 || area_vector == Vector::Zero()) return normal;
-  return area_vector.normalized();
+  return area_vector.stableNormalized();
 }
 
 /// Makes room for `size` elements in all.

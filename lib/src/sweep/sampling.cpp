@@ -9,9 +9,10 @@
 namespace meshcontour::detail {
 namespace {
 
-constexpr double kSameFraction = 1e-9;  // of the size: points closer than this are one
-constexpr double kStandstill = 1e-10;   // of the size: a derivative shorter than this vanishes
-constexpr double kRoundOff = 1e-14;     // of the distance from the origin: a box no larger is one point
+constexpr double kSameFraction = 1e-9;   // of the size: points closer than this are one
+constexpr double kStandstill = 1e-10;    // of the size: a derivative shorter than this vanishes
+constexpr double kRoundOff = 1e-14;      // of the distance from the origin: a box no larger is one point
+constexpr double kLeastLength = 1e-140;  // model units: squares of shorter lengths lose their digits
 constexpr double kSameTangent = 1 - 1e-9;
 
 enum class Side { Before, After };
@@ -102,7 +103,7 @@ Motion motion_of(const Piece& piece, const Basis& basis, double standstill, Side
 double standstill_of(const SweepCurve& curve) {
   Box box;
   for (const Point& p : curve.control_points) box.extend(p);
-  return kStandstill * box.diagonal().norm();
+  return std::max(kStandstill * box.diagonal().norm(), kLeastLength);
 }
 
 CurveSample circle_sample(double radius, const Eigen::Vector2d& direction) {
@@ -216,8 +217,8 @@ SampledCurve sample_curve(const SweepCurve& curve) {
   SampledCurve result = circle ? sample_circle(curve) : sample_spline(curve);
   Box box;
   for (const CurveSample& sample : result.samples) box.extend(sample.position);
-  const double reach = std::max(box.min().norm(), box.max().norm());
-  result.size = box.diagonal().norm() > kRoundOff * reach ? box.diagonal().norm() : 0;
+  const double least = std::max(kRoundOff * std::max(box.min().norm(), box.max().norm()), kLeastLength);
+  result.size = box.diagonal().norm() > least ? box.diagonal().norm() : 0;
   if (circle) return result;
   const CurveSample &first = result.samples.front(), &last = result.samples.back();
   result.closed = (last.position - first.position).norm() <= kSameFraction * result.size;

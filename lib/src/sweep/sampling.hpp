@@ -39,6 +39,8 @@ struct SampledCurve {
 
   /// True if all samples are one point.
   bool degenerate() const { return size == 0; }
+  /// False if the curve is one point; circles of radius 0 have tangents.
+  bool has_tangents() const { return samples.front().after.known(); }
 };
 
 /// Samples the curve. Linear in the samples.

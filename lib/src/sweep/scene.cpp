@@ -121,12 +121,14 @@ class SceneBuilder {
     if (is_point(curve)) return note("the curve is a single point, and is left out", curve.spot);
     NamedCurve named{names_.name(curve.name, "curve", index), to_curve(curve), {}};
     frames_ += static_cast<double>(sample_count(curve));
-    if (frames_ <= static_cast<double>(options_.max_frames)) {
-      const SampledCurve& samples = sampled(index);
-      named.frames = frames_of(samples, carry_frames(samples, options_.frames));
-      warn_of_reversals(curve, samples);
-    }
+    if (frames_ <= static_cast<double>(options_.max_frames)) add_frames(curve, sampled(index), named);
     model_.curves.push_back(std::move(named));
+  }
+
+  void add_frames(const SweepCurve& curve, const SampledCurve& samples, NamedCurve& named) {
+    if (!samples.has_tangents()) return;
+    named.frames = frames_of(samples, carry_frames(samples, options_.frames));
+    warn_of_reversals(curve, samples);
   }
 
   void warn_of_reversals(const SweepCurve& curve, const SampledCurve& samples) {

@@ -15,7 +15,13 @@ bool readable(const std::string& text) {
     ReadOptions options;
     options.max_triangles = 100'000;
     options.sweep.caps = true;
-    read_model(text, "x.swp", options);
+    const Model model = read_model(text, "x.swp", options);
+    for (const Shell& shell : model.shells) {
+      for (const Vector& normal : shell.corner_normals) CHECK(normal.norm() < 1 + 1e-12);
+    }
+    for (const NamedCurve& curve : model.curves) {
+      for (const CurveFrame& frame : curve.frames) CHECK(std::abs(frame.normal.norm() - 1) < 1e-12);
+    }
     return true;
   } catch (const Error& error) {
     CHECK(error.code() != ErrorCode::Internal);
@@ -103,6 +109,25 @@ TEST_CASE("swp: random words are a model or an error", "[sweep][error]") {
     std::string text = "circ a 5 1 ";
     for (int k = 0; k < 12; ++k) text += words[engine() % words.size()] + (engine() % 4 != 0 ? " " : "\n");
     readable(text);
+  }
+}
+
+TEST_CASE("swp: coordinates of any size are a model or an error", "[sweep][error]") {
+  std::mt19937 engine(13);
+  const std::vector<std::string> numbers = {"0",    "1",      "-2",      "1e100",  "-1e100",
+                                            "3e-7", "1e-150", "-1e-300", "4e-324", "1e50"};
+  const auto point = [&](int axes) {
+    std::string text = "[";
+    for (int k = 0; k < axes; ++k) text.append(numbers[engine() % numbers.size()]).append(" ");
+    return text.append("]");
+  };
+  for (int i = 0; i < 1000; ++i) {
+    std::string text = "circ c 5 " + numbers[engine() % 2] + " bez2 p 3 4 ";
+    for (int k = 0; k < 4; ++k) text.append(point(2));
+    text += " bsp3 s 3 5 ";
+    for (int k = 0; k < 5; ++k) text.append(point(3));
+    INFO(text);
+    REQUIRE(readable(text + " gcyl a p s srev b 7 p gcyl d p c gcyl e c s"));
   }
 }
 
