@@ -1,8 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "meshcontour/model.hpp"
@@ -21,6 +22,7 @@ struct BoundaryEdge {
 struct BoundaryLoop {
   std::vector<Index> vertices;  ///< indices into Shell::points; the first is not repeated at the end
   bool closed = true;           ///< false: an open chain, found only where the input itself is broken
+  friend bool operator==(const BoundaryLoop&, const BoundaryLoop&) = default;
 };
 
 /// The boundary of one patch.
@@ -78,5 +80,34 @@ std::vector<BoundaryLoop> trace_loops(std::span<const Triangle> triangles,
 /// from the number of incident triangles. Sorted, each once. On a manifold patch these are the ends of the
 /// boundary edges.
 std::vector<Index> valence_boundary_vertices(std::span<const Triangle> triangles);
+
+struct BoundaryCounts {
+  std::size_t edges = 0, vertices = 0, loops = 0;
+};
+
+/// One patch as the three methods see it.
+struct PatchComparison {
+  std::size_t shell = 0, patch = 0;  ///< indices from 0
+  std::size_t triangles = 0;
+  bool manifold = false;  ///< an orientable manifold, however its triangles run: the methods must agree
+  BoundaryCounts halfedge, sorted;
+  std::size_t valence_vertices = 0;
+  std::size_t unheld_triangles = 0;  ///< that the Surface_mesh could not hold
+  bool equal = false;                ///< the same edges and loops, and their ends are the valence vertices
+
+  /// Whether one of the methods must be wrong.
+  bool disagrees() const { return manifold && !equal; }
+};
+
+/// Runs the work of one method, "halfedge", "sorted" or "valence"; for callers that take the time.
+using Measure = std::function<void(std::string_view method, const std::function<void()>& work)>;
+
+/// Compares both extractors and the valence criterion on every patch, in order of shell and patch.
+///
+/// On patches that are not orientable manifolds the methods may differ: the Surface_mesh leaves out
+/// triangles, and the valence criterion takes vertices for boundary, or misses them, where fans meet.
+std::vector<PatchComparison> compare_extractors(
+    const Model& model, unsigned threads = 0,
+    const Measure& measure = [](std::string_view, const std::function<void()>& work) { work(); });
 
 }  // namespace meshcontour

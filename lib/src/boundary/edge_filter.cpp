@@ -73,15 +73,6 @@ void count_in_table(std::span<const Triangle> triangles, EdgeCensus& census) {
   table.collect(census);
 }
 
-// A 64-bit mix with full avalanche (splitmix64, Steele, Lea & Flood 2014). Weaker ones let the sums below
-// cancel by accident: small numbers have many linear relations.
-constexpr std::uint64_t mix(std::uint64_t v) {
-  v += 0x9e3779b97f4a7c15u;
-  v = (v ^ (v >> 30)) * 0xbf58476d1ce4e5b9u;
-  v = (v ^ (v >> 27)) * 0x94d049bb133111ebu;
-  return v ^ (v >> 31);
-}
-
 // After this a sum is zero unless some edge at its vertex is not used as often in one direction as in the
 // other. Degenerate triangles add nothing.
 void add_fingerprints(std::span<const Triangle> triangles, std::uint64_t* sums) {

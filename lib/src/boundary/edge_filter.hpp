@@ -15,6 +15,14 @@ struct EdgeCensus {
   std::size_t inconsistent = 0;        ///< two triangles that run the same way
 };
 
+/// A 64-bit mix with full avalanche (splitmix64, Steele, Lea & Flood 2014).
+constexpr std::uint64_t mix(std::uint64_t v) {
+  v += 0x9e3779b97f4a7c15u;
+  v = (v ^ (v >> 30)) * 0xbf58476d1ce4e5b9u;
+  v = (v ^ (v >> 27)) * 0x94d049bb133111ebu;
+  return v ^ (v >> 31);
+}
+
 constexpr bool degenerate(const Triangle& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }

@@ -3,9 +3,10 @@
 #include <algorithm>
 
 #include "boundary/edge_filter.hpp"
+#include "boundary/halfedge.hpp"
 #include "boundary/loops.hpp"
 #include "boundary/numbering.hpp"
-#include "boundary/patch_parts.hpp"
+#include "boundary/patch_runs.hpp"
 #include "meshcontour/boundary.hpp"
 
 namespace meshcontour {
@@ -79,9 +80,11 @@ std::vector<ShellBoundary> extract_boundaries(const Model& model, const Boundary
   }
   detail::WorkspacePool pool;
   detail::for_each_patch(model, options.threads, [&](std::size_t shell, std::size_t first, std::size_t last) {
+    const auto extract =
+        options.extractor == Extractor::Halfedge ? detail::halfedge_boundary : sorted_boundary;
     pool.with([&](detail::Workspace& workspace) {
       for (std::size_t patch = first; patch < last; ++patch) {
-        boundaries[shell].patches[patch] = sorted_boundary(model.shells[shell], patch, workspace);
+        boundaries[shell].patches[patch] = extract(model.shells[shell], patch, workspace);
       }
     });
   });

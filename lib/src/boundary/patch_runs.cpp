@@ -1,4 +1,4 @@
-#include "boundary/patch_parts.hpp"
+#include "boundary/patch_runs.hpp"
 
 #include "meshcontour/parallel.hpp"
 
