@@ -81,4 +81,58 @@ Counts counts_of(const Model& model, std::span<const ShellBoundary> boundaries,
 std::string summary(const Model& model, std::span<const ShellBoundary> boundaries,
                     std::span<const Contour> contours, std::span<const StageTime> timings);
 
+/// What became of one input of a run.
+struct FileReport {
+  enum class Outcome { Done, Failed, Skipped };
+
+  std::string file;  ///< as it was named; reports leave out the folders of an absolute name
+  Outcome outcome = Outcome::Done;
+  int exit_code = 0;    ///< of the error; 128 + signal for a worker that died
+  std::string message;  ///< why it failed or was skipped
+  Counts counts;
+  std::vector<std::vector<StageTime>> runs;  ///< the stages of each repetition
+  std::uint64_t peak_memory = 0;             ///< bytes; 0: unknown
+  unsigned worker = 0;                       ///< from 0
+};
+
+/// A report as one line of JSON without line break, and back: to pass it between processes and to keep it in
+/// a journal.
+std::string to_record(const FileReport& report);
+/// @throws Error   BadData if the text is no whole record.
+FileReport from_record(std::string_view text);
+
+/// Where a report was made.
+struct Machine {
+  std::string host, system, cpu;
+  unsigned cores = 1;               ///< that this process may use
+  double mhz = 0;                   ///< 0: unknown
+  bool cpu_scaling = false;         ///< the clock follows the load: timings vary
+  std::array<double, 3> load = {};  ///< of the last 1, 5 and 15 minutes
+};
+
+Machine this_machine();
+
+/// Seconds since 1970, UTC.
+std::int64_t unix_time();
+
+/// Reports that other programs read.
+enum class ReportFormat {
+  Json,  ///< our own, docs/report.schema.json: one line a file; times are medians of the repetitions
+  GoogleBenchmark,  ///< an iteration a stage and repetition, named STAGE/FILE; files that failed are left out
+  JUnit,            ///< a test case a file
+  GitHubAction,     ///< github-action-benchmark's customSmallerIsBetter: medians, FILE/STAGE
+  Trace,            ///< Chrome trace events: a row a worker
+};
+
+/// json, gbench, junit, gha or trace.
+std::optional<ReportFormat> report_format(std::string_view name);
+std::span<const std::string_view> report_format_names();
+
+/// Writes the report of all files of a run.
+///
+/// @param time     when the run began, seconds since 1970.
+/// @throws Error   InputOutput from the sink.
+void write_report(ReportFormat format, std::span<const FileReport> files, const Machine& machine,
+                  std::int64_t time, Sink& sink);
+
 }  // namespace meshcontour

@@ -6,7 +6,7 @@
 #include "write/drawing.hpp"
 #include "write/dxf_file.hpp"
 #include "write/sampling.hpp"
-#include "write/timestamp.hpp"
+#include "base/timestamp.hpp"
 #include "write/units.hpp"
 #include "write/writers.hpp"
 

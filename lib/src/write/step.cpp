@@ -9,7 +9,7 @@
 #include "write/drawing.hpp"
 #include "write/sampling.hpp"
 #include "write/step_text.hpp"
-#include "write/timestamp.hpp"
+#include "base/timestamp.hpp"
 #include "write/units.hpp"
 #include "write/writers.hpp"
 
