@@ -146,11 +146,11 @@ void FileBytes::grow(std::size_t capacity) {
 InputFile::InputFile(const std::filesystem::path& file)
     : InputFile(open_named(file.string()), file.string(), names_open_descriptor(file.string())) {}
 
-InputFile::InputFile(FileDescriptor fd, std::string name, bool pipes_allowed)
-    : fd_(std::move(fd)), name_(std::move(name)) {
+InputFile::InputFile(FileDescriptor fd, std::string name, bool descriptor)
+    : fd_(std::move(fd)), name_(std::move(name)), descriptor_(descriptor) {
   struct stat status {};
   if (::fstat(fd_.get(), &status) != 0) fail(ErrorCode::NoInput, "cannot be opened: " + reason(errno), name_);
-  if (const auto refused = kind_refused(status.st_mode, pipes_allowed); !refused.empty()) {
+  if (const auto refused = kind_refused(status.st_mode, descriptor); !refused.empty()) {
     fail(ErrorCode::NoInput, std::string(refused), name_);
   }
   // A pipe's own reads may wait: whoever fills it is at work.
@@ -239,17 +239,20 @@ InputFolder::InputFolder(const std::filesystem::path& folder) : path_(folder) {
   fd_ = FileDescriptor(fd);
 }
 
-InputFile InputFolder::open(std::string_view name) const {
+std::optional<InputFile> InputFolder::open(std::string_view name) const {
+  const std::string shown = printable(name, 80);
   if (const auto refused = reference_refused(name); !refused.empty()) {
-    fail(ErrorCode::BadData, fmt::format("reference '{}' refused: {}", printable(name), refused),
+    fail(ErrorCode::BadData, fmt::format("reference '{}' refused: {}", shown, refused), path_.string());
+  }
+  const int fd = open_beneath(fd_.get(), std::string(name));
+  if (fd >= 0) return InputFile(FileDescriptor(fd), (path_ / name).string(), false);
+  if (errno == ENOENT) return std::nullopt;
+  if (errno == EXDEV) {
+    fail(ErrorCode::BadData, fmt::format("reference '{}' refused: it leads out of the folder", shown),
          path_.string());
   }
-  const std::string shown = (path_ / name).string();
-  const int fd = open_beneath(fd_.get(), std::string(name));
-  if (fd < 0 && errno == EXDEV)
-    fail(ErrorCode::NoInput, "refused: leads out of the folder of its model", shown);
-  if (fd < 0) fail(ErrorCode::NoInput, "cannot be opened: " + reason(errno), shown);
-  return InputFile(FileDescriptor(fd), shown, false);
+  fail(ErrorCode::NoInput, fmt::format("reference '{}' cannot be opened: {}", shown, reason(errno)),
+       path_.string());
 }
 
 void advise_huge_pages(void* data, std::size_t size) {

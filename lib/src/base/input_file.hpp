@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -61,6 +62,9 @@ class InputFile {
   /// The first bytes, at most 4096; empty for an empty file.
   std::string_view head() const { return head_; }
 
+  /// True for a name like /dev/stdin, whose folder says nothing about the file.
+  bool is_descriptor() const { return descriptor_; }
+
   /// Bytes that the file system promises; 0 for a pipe.
   std::size_t size() const { return size_; }
 
@@ -74,7 +78,7 @@ class InputFile {
 
  private:
   friend class InputFolder;
-  InputFile(FileDescriptor fd, std::string name, bool pipes_allowed);
+  InputFile(FileDescriptor fd, std::string name, bool descriptor);
   std::size_t read_at(char* to, std::size_t size, std::size_t offset) const;
   std::size_t next_data(std::size_t offset, std::size_t& end) const;
   void read_regular(FileBytes& bytes) const;
@@ -86,6 +90,7 @@ class InputFile {
   std::pair<dev_t, ino_t> identity_{};
   std::size_t size_ = 0;  // as the file system says; 0 for pipes
   bool sparse_ = false;
+  bool descriptor_ = false;
 };
 
 /// A folder from which files may be opened that another file names, and nothing outside it.
@@ -97,11 +102,12 @@ class InputFolder {
   /// Opens a regular file beneath the folder. Links are followed only as long as they stay beneath it.
   ///
   /// @param name    relative, with '/' between parts.
+  /// @return        nothing if there is no such file.
   /// @throws Error  BadData, before anything is opened, if the name is empty, absolute, a URL, or holds '..',
   /// '.', a
   ///                backslash or a control character; NoInput if it cannot be opened or is not a regular
   ///                file.
-  InputFile open(std::string_view name) const;
+  std::optional<InputFile> open(std::string_view name) const;
 
  private:
   FileDescriptor fd_;

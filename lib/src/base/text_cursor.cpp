@@ -49,18 +49,22 @@ std::optional<double> parse_number(std::string_view word) {
 }
 
 void LineCounter::count_to(std::size_t offset) {
-  offset = std::min(offset, text_.size());
+  offset = std::clamp(offset, start_, text_.size());
   if (offset < counted_) {
-    counted_ = line_start_ = 0;
-    line_ = 1;
+    counted_ = line_start_ = start_;
+    line_ = start_line_;
   }
-  for (; counted_ < offset; ++counted_) {
-    const char c = text_[counted_];
-    const bool crlf = c == '\r' && counted_ + 1 < text_.size() && text_[counted_ + 1] == '\n';
-    if (!is_line_end(c) || crlf) continue;
-    ++line_;
-    line_start_ = counted_ + 1;
+  const std::string_view between = text_.substr(counted_, offset - counted_);
+  line_ += static_cast<std::size_t>(std::count(between.begin(), between.end(), '\n'));
+  for (std::size_t i = between.find('\r'); i < between.size(); i = between.find('\r', i + 1)) {
+    if (!text_.substr(counted_ + i + 1).starts_with('\n')) ++line_;
   }
+  const std::size_t last = between.find_last_of("\n\r");
+  const bool found = last != between.npos;
+  const bool inside_crlf =
+      found && last + 1 == between.size() && text_.substr(offset - 1).starts_with("\r\n");
+  if (found && !inside_crlf) line_start_ = counted_ + last + 1;
+  counted_ = offset;
 }
 
 std::size_t LineCounter::line(std::size_t offset) {

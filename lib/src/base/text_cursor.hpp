@@ -29,7 +29,9 @@ std::optional<T> parse_integer(std::string_view word) {
 /// that rising offsets cost one pass together.
 class LineCounter {
  public:
-  explicit LineCounter(std::string_view text) : text_(text) {}
+  /// @param start, line  an offset whose line is known; earlier offsets are not asked for.
+  explicit LineCounter(std::string_view text, std::size_t start = 0, std::size_t line = 1)
+      : text_(text), start_(start), start_line_(line), counted_(start), line_(line), line_start_(start) {}
   std::size_t line(std::size_t offset);
   std::size_t column(std::size_t offset);  ///< from 1, in bytes
 
@@ -37,9 +39,8 @@ class LineCounter {
   void count_to(std::size_t offset);
 
   std::string_view text_;
-  std::size_t counted_ = 0;
-  std::size_t line_ = 1;
-  std::size_t line_start_ = 0;
+  std::size_t start_, start_line_;
+  std::size_t counted_, line_, line_start_;
 };
 
 /// Reads words and numbers one after the other; every failure names file, line and column.

@@ -93,10 +93,6 @@ std::vector<std::uint8_t> used_points(const Shell& shell) {
   return used;
 }
 
-std::size_t count_unused_points(const Shell& shell) {
-  return static_cast<std::size_t>(std::ranges::count(used_points(shell), 0));
-}
-
 void report(const CleaningCounts& counts, const Spot& spot, std::vector<Diagnostic>& diagnostics) {
   const auto warn = [&](std::size_t count, const char* message) {
     if (count > 0) diagnostics.push_back({Diagnostic::Severity::Warning, message, spot, count});
@@ -111,6 +107,10 @@ void report(const CleaningCounts& counts, const Spot& spot, std::vector<Diagnost
 }
 
 }  // namespace
+
+std::size_t count_unused_points(const Shell& shell) {
+  return static_cast<std::size_t>(std::ranges::count(used_points(shell), 0));
+}
 
 std::size_t drop_degenerate_triangles(Shell& shell) {
   if (std::ranges::none_of(shell.triangles, is_degenerate)) return 0;

@@ -12,6 +12,7 @@
 #include "read/ply.hpp"
 #include "read/stl.hpp"
 #include "read/swp.hpp"
+#include "read/webxml.hpp"
 
 namespace meshcontour::detail {
 namespace {
@@ -37,7 +38,7 @@ const Format* best_match(std::span<const Match> matches, std::span<const Format>
     if (first == nullptr) first = &table[i];
     ++count;
   }
-  return least == Match::Sure || count == 1 ? first : nullptr;
+  return least == Match::Sure || (least == Match::Possible && count == 1) ? first : nullptr;
 }
 
 }  // namespace
@@ -49,15 +50,16 @@ const Format& detect_format(std::string_view head, std::uint64_t size, std::stri
   const std::string extension = extension_of(name);
   std::vector<Match> matches;
   for (const Format& format : table) matches.push_back(format.sniff(head, size));
-  for (const Match least : {Match::Sure, Match::Possible}) {
+  for (const Match least : {Match::Sure, Match::IfNamed, Match::Possible}) {
     if (const Format* format = best_match(matches, table, extension, least)) return *format;
   }
   std::vector<std::string_view> names;
   for (const Format& format : table) {
     const bool named = std::ranges::find(format.extensions, extension) != format.extensions.end();
-    if (named)
+    if (named) {
       throw Error(ErrorCode::BadData, fmt::format("not {}: the content is something else", format.name),
                   spot);
+    }
     names.push_back(format.name);
   }
   throw Error(ErrorCode::BadData, fmt::format("not a known format ({})", fmt::join(names, ", ")), spot);
@@ -65,6 +67,7 @@ const Format& detect_format(std::string_view head, std::uint64_t size, std::stri
 
 std::span<const Format> formats() {
   static const std::vector<Format> table = {
+      {"webxml", {"xml", "webxml"}, sniff_webxml, read_webxml},
       {"swept surfaces", {"swp"}, sniff_swp, read_swp},
       {"STL", {"stl"}, sniff_stl, read_stl},
       {"PLY", {"ply"}, sniff_ply, read_ply},

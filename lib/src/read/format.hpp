@@ -21,6 +21,7 @@ struct ReadContext {
 /// How surely the first bytes are of a format.
 enum class Match {
   No,
+  IfNamed,   ///< taken only if the extension agrees
   Possible,  ///< nothing speaks against it; taken when the extension agrees, or nothing else is possible
   Sure,      ///< a signature, taken whatever the extension
 };

@@ -28,9 +28,12 @@ void read_property(TextCursor& in, std::string_view keyword, Rgba& color) {
 
 void read_obj_materials(const InputFolder& folder, std::string_view file,
                         std::map<std::string, Rgba>& colors) {
-  InputFile input = folder.open(file);
-  const FileBytes bytes = input.read();
-  TextCursor in(bytes.view(), input.name(), '#');
+  std::optional<InputFile> input = folder.open(file);
+  if (!input) {
+    throw Error(ErrorCode::NoInput, "'" + printable(file, 80) + "' does not exist");
+  }
+  const FileBytes bytes = input->read();
+  TextCursor in(bytes.view(), input->name(), '#');
   Rgba* color = nullptr;
   while (!in.at_end()) {
     const std::string_view keyword = in.word();

@@ -1,5 +1,7 @@
 #include "meshcontour/read.hpp"
 
+#include <optional>
+
 #include "read/format.hpp"
 
 namespace meshcontour {
@@ -27,8 +29,9 @@ Model read_model(const std::filesystem::path& file, const ReadOptions& options) 
   InputFile input(file);
   const Format& format = detect_format(input.head(), input.size(), input.name(), formats());
   const FileBytes bytes = input.read();
-  const InputFolder folder(file.parent_path());
-  const ReadContext context{input.name(), options, &folder};
+  std::optional<InputFolder> folder;
+  if (!input.is_descriptor()) folder.emplace(file.parent_path());
+  const ReadContext context{input.name(), options, folder ? &*folder : nullptr};
   return checked(format.read(bytes.view(), context), context);
 }
 

@@ -178,7 +178,7 @@ Match sniff_stl(std::string_view head, std::uint64_t size) {
   if (is_binary(head, size)) return Match::Sure;
   if (starts_as_text(head)) return Match::Sure;
   const auto is_text = [](char c) { return c == '\t' || c == '\n' || c == '\r' || (c >= ' ' && c <= '~'); };
-  return head.size() >= kHeaderBytes && !std::ranges::all_of(head, is_text) ? Match::Possible : Match::No;
+  return head.size() >= kHeaderBytes && !std::ranges::all_of(head, is_text) ? Match::IfNamed : Match::No;
 }
 
 Model read_stl(std::string_view bytes, const ReadContext& context) {

@@ -112,10 +112,10 @@ TEST_CASE("InputFolder: files beneath the folder are opened, by links too", "[ba
   const Folder folder;
   fs::create_symlink("in.xml", folder / "model/link.xml");
   const InputFolder model(folder / "model");
-  CHECK(model.open("in.xml").head() == "content");
-  CHECK(model.open("parts/deep.xml").head() == "deep");
-  CHECK(model.open("link.xml").head() == "content");
-  CHECK(model.open("link.xml").identity() == model.open("in.xml").identity());
+  CHECK(model.open("in.xml")->head() == "content");
+  CHECK(model.open("parts/deep.xml")->head() == "deep");
+  CHECK(model.open("link.xml")->head() == "content");
+  CHECK(model.open("link.xml")->identity() == model.open("in.xml")->identity());
 }
 
 TEST_CASE("InputFolder: names that lead elsewhere are refused before anything is opened", "[base][error]") {
@@ -141,6 +141,6 @@ TEST_CASE("InputFolder: links out of the folder, folders and pipes are refused",
   CHECK_THROWS_AS(model.open("loop.xml"), Error);
   CHECK_THROWS_WITH(model.open("fifo.xml"), Catch::Contains("is a named pipe"));
   CHECK_THROWS_WITH(model.open("parts"), Catch::Contains("is a folder"));
-  CHECK_THROWS_WITH(model.open("absent.xml"), Catch::Contains("absent.xml: cannot be opened"));
+  CHECK_FALSE(model.open("absent.xml"));
   CHECK_THROWS_AS(InputFolder(folder / "nowhere"), Error);
 }

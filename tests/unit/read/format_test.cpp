@@ -22,6 +22,10 @@ const std::vector<Format> kTable = {
      {"c"},
      [](std::string_view head, std::uint64_t) { return head[0] != '<' ? Match::Possible : Match::No; },
      nullptr},
+    {"Epsilon",
+     {"e"},
+     [](std::string_view head, std::uint64_t) { return head[0] == '?' ? Match::IfNamed : Match::No; },
+     nullptr},
     {"Delta",
      {"d"},
      [](std::string_view, std::uint64_t size) { return size == 84 ? Match::Sure : Match::No; },
@@ -45,10 +49,12 @@ TEST_CASE("detect_format: between possible formats the extension decides", "[rea
   CHECK(detected("1", "dir.x/m.BB") == "Beta");
   CHECK(detected("1", "m.c") == "Gamma");
   CHECK(detected("2", "m.b") == "Gamma");  // the only one possible
+  CHECK(detected("?", "m.e") == "Epsilon");
+  CHECK(detected("?", "m.x") == "Gamma");
 }
 
 TEST_CASE("detect_format: what fits nothing is refused in words", "[read][error]") {
-  CHECK_THROWS_WITH(detected("1", "m.zzz"), "m.zzz: not a known format (Alpha, Beta, Gamma, Delta)");
+  CHECK_THROWS_WITH(detected("1", "m.zzz"), "m.zzz: not a known format (Alpha, Beta, Gamma, Epsilon, Delta)");
   CHECK_THROWS_WITH(detect_format("x", 1, "m.a", std::span(kTable).first(1)),
                     "m.a: not Alpha: the content is something else");
   CHECK_THROWS_WITH(detected("", "m.a"), "m.a: empty file");

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/text_cursor.hpp"
+#include "read/xml_scanner.hpp"
+
+namespace meshcontour::detail {
+
+/// The elements and attributes of a document, or of a part of it, as text for tinyxml2: no comments,
+/// instructions, character data or text, line ends as LF. Parts may be left out; lines are still those of the
+/// original.
+class XmlDigest {
+ public:
+  /// @param original     what the tokens are cut from; must outlive the digest.
+  /// @param start, line  where the tokens begin, and the line of that offset.
+  explicit XmlDigest(std::string_view original, std::size_t start = 0, std::size_t line = 1)
+      : original_(original), lines_(original, start, line), sections_{{1, start}} {}
+
+  /// Starts again at a later offset of the original, empty.
+  void restart(std::size_t offset);
+  /// Appends a tag, or the line ends of any other token.
+  void append(const XmlToken& token);
+  /// Appends text that stands for a part of the original up to `end`, which is left out.
+  void leave_out(std::string_view stand_in, std::size_t end);
+
+  std::string& text() { return text_; }
+  /// Line of the original for a line that tinyxml2 reports.
+  std::size_t line(int digest_line);
+
+ private:
+  struct Section {
+    std::size_t line;    // of the digest
+    std::size_t offset;  // in the original
+  };
+  void append_normalized(std::string_view part, bool line_ends_only);
+
+  std::string_view original_;
+  LineCounter lines_;
+  std::string text_;
+  std::size_t line_ = 1;
+  std::vector<Section> sections_;
+};
+
+/// Parses a digest.
+/// @throws Error  BadData if tinyxml2 refuses it after all.
+void parse_digest(tinyxml2::XMLDocument& document, XmlDigest& digest, const std::string& file);
+
+}  // namespace meshcontour::detail
