@@ -11,7 +11,7 @@ namespace {
 
 Shell shell_of(std::vector<std::vector<Triangle>> patches, std::size_t points) {
   Shell shell;
-  shell.id = "s";
+  shell.id.assign(1, 's');
   shell.points.resize(points, Point::Zero());
   for (const auto& triangles : patches) {
     shell.patches.push_back({"", {}, shell.triangles.size(), triangles.size()});
