@@ -13,6 +13,7 @@ namespace meshcontour::detail {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kStraight = 0.01;   // of the tolerance: how far points of a line may be off it
 constexpr int kSplineAttempts = 40;  // of one part; what is then left is its polygon
 
 double angle_between(const Vector& a, const Vector& b) {
@@ -85,6 +86,12 @@ class FreeFormSplitter {
 
   void take(std::size_t begin, std::size_t end) {
     if (end - begin == 1) return add_line(begin, end, true);
+    const double straight = std::max(eps_, kStraight * options_.tolerance);
+    if (const std::optional<double> residual = line_residual(path_.run(begin, end), straight)) {
+      add_line(begin, end, true);
+      done_.back().residual = *residual;
+      return;
+    }
     if (end - begin == 2) return take_two(begin);
     if (options_.primitives && !is_ring(begin, end)) {
       if (std::optional<Piece> conic = as_conic(begin, end)) return done_.push_back(std::move(*conic));
@@ -103,11 +110,6 @@ class FreeFormSplitter {
   }
 
   void take_two(std::size_t begin) {
-    if (const std::optional<double> residual = line_residual(path_.run(begin, begin + 2), eps_)) {
-      add_line(begin, begin + 2, true);
-      done_.back().residual = *residual;
-      return;
-    }
     if (options_.primitives) {
       if (std::optional<Piece> arc = two_chord_arc(path_, run_, begin, eps_, options_)) {
         return done_.push_back(std::move(*arc));

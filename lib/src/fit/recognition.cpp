@@ -17,12 +17,18 @@ namespace {
 
 constexpr double kLadder[] = {1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.3, 1};
 constexpr std::size_t kEllipsePoints = 9;
+constexpr double kTight = 1e-3;  // share of the tolerance at which a match is no accident
+
+// Joints of a CAD model may be this far off the curves that meet there, while the points between are exact;
+// share of the tolerance.
+constexpr double kJointError = 0.1;
 
 // One description of the path.
 struct Attempt {
   Recognition result;
   double cost = std::numeric_limits<double>::infinity();
-  bool certain = false;  // every piece recognized: looser tolerances cannot do better
+  bool certain = false;  // every piece recognized
+  bool simple = false;   // one piece between hard corners: looser tolerances cannot do better
 };
 
 class Recognizer {
@@ -39,7 +45,8 @@ class Recognizer {
       Attempt attempt = at_tolerance(eps);
       cheapest = std::min(cheapest, attempt.cost);
       attempts.push_back(std::move(attempt));
-      if (attempts.back().certain) break;
+      if (attempts.back().certain && (attempts.back().simple || eps >= kJointError * options_.tolerance))
+        break;
     }
     for (Attempt& attempt : attempts) {
       if (attempt.cost <= 1.15 * cheapest) return std::move(attempt.result);
@@ -100,7 +107,7 @@ class Recognizer {
     if (!options_.primitives || path_.chords() < 5) return std::nullopt;
     const std::span<const Point> points = path_.run(0, path_.chords() - 1);
     Attempt attempt;
-    attempt.certain = true;
+    attempt.certain = attempt.simple = true;
     Piece piece{0, path_.chords(), LineSegment{}, 0, true};
     if (const std::optional<ArcFit> circle = fit_circle(points, eps)) {
       piece.curve = circle->arc;
@@ -146,7 +153,15 @@ class Recognizer {
       add_run(path, run, eps, done);
       begin = end;
     }
-    return made(path, std::move(done));
+    Attempt attempt = made(path, std::move(done));
+    std::size_t runs = 1;
+    for (std::size_t i = 1; i < path.chords(); ++i) runs += path.turn[i] > options_.corner_angle;
+    attempt.simple = attempt.result.pieces.size() == runs;
+    if (options_.bounded) {  // one edge between patch corners is likelier than several
+      const double joint = eps <= kTight * options_.tolerance ? 3 : 10;
+      attempt.cost += joint * static_cast<double>(attempt.result.pieces.size() - runs);
+    }
+    return attempt;
   }
 
   void add_run(const Path& path, const Run& run, double eps, std::vector<Piece>& done) {
