@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -40,10 +41,16 @@ void add(Tally& tally, const shapes::Check& check, const shapes::Shape& shape) {
 
 }  // namespace
 
-int main() {
+// Arguments: names of disturbances; none: all.
+int main(int count, char** arguments) {
   const bool verbose = std::getenv("VERBOSE") != nullptr;
-  for (const double tau : {1e-3, 1e-4, 1e-5}) {
+  const std::vector<std::string> chosen(arguments + 1, arguments + count);
+  const auto skipped = [&](const std::string& name) {
+    return !chosen.empty() && std::find(chosen.begin(), chosen.end(), name) == chosen.end();
+  };
+  for (const double tau : {1e-4, 1e-5}) {
     for (const shapes::Disturbance& disturbance : shapes::disturbances()) {
+      if (skipped(disturbance.name)) continue;
       Tally tally;
       for (const shapes::Shape& shape : shapes::all()) {
         for (const shapes::Steps steps : {shapes::Steps::Adaptive, shapes::Steps::Uniform}) {
@@ -60,6 +67,7 @@ int main() {
                  disturbance.name, tally.kinds, tally.cases, tally.corners, tally.cases, tally.worst);
     }
     for (const shapes::Disturbance& disturbance : shapes::disturbances()) {
+      if (skipped(disturbance.name)) continue;
       std::mt19937 random(7);
       Tally tally;
       for (unsigned k = 0; k < 60; ++k) {

@@ -67,7 +67,7 @@ int count_corners(const Contour& contour) {
 }
 
 double distance_to_edge(const Point& p, const Edge& edge) {
-  constexpr int kSteps = 2000;
+  constexpr int kSteps = 300;
   double best = 1e300;
   int at = 0;
   for (int i = 0; i <= kSteps; ++i) {
@@ -78,7 +78,7 @@ double distance_to_edge(const Point& p, const Edge& edge) {
   const auto distance = [&](double i) {
     return (edge.at(edge.begin + (edge.end - edge.begin) * i / kSteps) - p).norm();
   };
-  for (int step = 0; step < 60; ++step) {
+  for (int step = 0; step < 80; ++step) {
     const double a = low + (high - low) / 3, b = high - (high - low) / 3;
     if (distance(a) < distance(b))
       high = b;
@@ -90,7 +90,7 @@ double distance_to_edge(const Point& p, const Edge& edge) {
 
 double error_of(const Curve& curve, const Edge& edge) {
   double worst = 0;
-  for (int i = 0; i <= 24; ++i) worst = std::max(worst, distance_to_edge(evaluate(curve, i / 24.0), edge));
+  for (int i = 0; i <= 8; ++i) worst = std::max(worst, distance_to_edge(evaluate(curve, i / 8.0), edge));
   return worst;
 }
 

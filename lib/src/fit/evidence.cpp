@@ -69,12 +69,16 @@ class Judge {
     return run_.ends_hard && (at_end ? piece.end == run_.end : piece.begin == run_.begin);
   }
 
-  // Distance of the first vertices beyond the ends to the piece's line or circle; none beyond a hard end.
-  double off_beyond(const Piece& piece) const {
+  // Distance of the vertices `steps` beyond the ends to the piece's line or circle, at most to the run's own ends;
+  // infinite if there are none.
+  double off_beyond(const Piece& piece, std::size_t steps = 1) const {
     double nearest = kNever;
     for (const bool at_end : {false, true}) {
       if (hard(piece, at_end)) continue;
-      const Point* next = path_.beyond(at_end ? piece.end : piece.begin, at_end ? 1 : -1);
+      std::size_t reach = steps;
+      if (run_.ends_hard) reach = std::min(reach, at_end ? run_.end - piece.end : piece.begin - run_.begin);
+      const auto signed_reach = static_cast<std::ptrdiff_t>(reach);
+      const Point* next = path_.beyond(at_end ? piece.end : piece.begin, at_end ? signed_reach : -signed_reach);
       if (next) nearest = std::min(nearest, distance_to(piece, *next));
     }
     return nearest;
@@ -103,7 +107,8 @@ class Judge {
     double factor = piece.chords() < 8 ? 20 : 10;
     if (steps) factor /= 3;
     if (off >= factor * noise(piece)) return true;
-    return piece.chords() >= 8 && steps && off >= 2 * noise(piece) && noise_like(piece);
+    // Noise hides the first vertices beyond a joint, not those a quarter of the arc away.
+    return piece.chords() >= 12 && noise_like(piece) && off_beyond(piece, piece.chords() / 4) >= 20 * noise(piece);
   }
 
   const Piece* neighbour(std::size_t k, bool at_end) const {

@@ -13,6 +13,7 @@ namespace meshcontour::detail {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kNoise = 0.1;       // of the tolerance
 constexpr double kStraight = 0.01;   // of the tolerance: how far points of a line may be off it
 constexpr int kSplineAttempts = 40;  // of one part; what is then left is its polygon
 
@@ -121,20 +122,24 @@ class FreeFormSplitter {
     take_spline(begin, begin + 2);
   }
 
+  // The whole stretch as one arc or ellipse. Above kNoise of the tolerance only where no patch corners bound the
+  // chain: there a curve that is nearly an arc is more likely an edge of its own kind than a noisy arc.
   std::optional<Piece> as_conic(std::size_t begin, std::size_t end) const {
+    if (options_.bounded && eps_ > kNoise * options_.tolerance) return std::nullopt;
     const std::span<const Point> points = path_.run(begin, end);
     if (const std::optional<ArcFit> fit = fit_arc(points, eps_)) {
       const double sagitta = fit->arc.radius * (1 - std::cos(fit->arc.angle / 2));
       const double shortest = *std::min_element(path_.length.begin() + static_cast<std::ptrdiff_t>(begin),
                                                 path_.length.begin() + static_cast<std::ptrdiff_t>(end));
       const double slack = 8 * eps_ / shortest;
-      const bool even = slack < 0.05 && unevenness(path_, begin, end) <= 1e-3 + slack;
-      const bool long_enough = points.size() >= 6 && sagitta > 50 * fit->residual;
-      if (even || long_enough) return Piece{begin, end, fit->arc, fit->residual, true};
+      const double uneven = unevenness(path_, begin, end);
+      const bool even = slack < 0.05 && uneven <= 1e-3 + slack;
+      const bool deep = points.size() >= 7 ? sagitta > 50 * fit->residual
+                                           : sagitta > 10 * eps_ && uneven < 0.05 + slack && !options_.bounded;
+      if (even || deep) return Piece{begin, end, fit->arc, fit->residual, true};
     }
     if (points.size() < 9) return std::nullopt;
-    const std::optional<EllipseFit> fit =
-        fit_ellipse(points, false, std::min(eps_, 0.1 * options_.tolerance));
+    const std::optional<EllipseFit> fit = fit_ellipse(points, false, eps_);
     if (!fit) return std::nullopt;
     return Piece{begin, end, fit->arc, fit->residual, true};
   }

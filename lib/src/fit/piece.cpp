@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kShortestLine = 2;  // chords
 constexpr std::size_t kShortestArc = 3;
+constexpr std::size_t kMostMoved = 4;  // chords from one piece to the next
 
 std::optional<Piece> try_line(const Path& path, std::size_t begin, std::size_t end, double eps) {
   const std::optional<double> residual = line_residual(path.run(begin, end), eps);
@@ -49,14 +50,26 @@ std::optional<Piece> longest(std::size_t begin, std::size_t end, std::size_t sho
   return best;
 }
 
+// Twice the length within eps of a line is four times as deep, which may be enough to tell an arc from it; else two
+// more doublings are.
+std::optional<Piece> longest_arc(const Path& path, std::size_t begin, std::size_t end, std::size_t straight,
+                                 double eps) {
+  const auto attempt = [&](std::size_t j) { return try_arc(path, begin, j, eps); };
+  std::size_t shortest = std::max(kShortestArc, 2 * straight);
+  std::optional<Piece> arc = longest(begin, end, shortest, attempt);
+  for (int doubling = 0; doubling < 2 && !arc && straight > 1; ++doubling) {
+    shortest *= 2;
+    arc = longest(begin, end, shortest, attempt);
+  }
+  return arc;
+}
+
 std::vector<Piece> greedy(const Path& path, std::size_t begin, std::size_t end, double eps, bool arcs) {
   std::vector<Piece> pieces;
   for (std::size_t i = begin; i < end;) {
     const auto line =
         longest(i, end, kShortestLine, [&](std::size_t j) { return try_line(path, i, j, eps); });
-    const auto arc =
-        !arcs ? std::nullopt
-              : longest(i, end, kShortestArc, [&](std::size_t j) { return try_arc(path, i, j, eps); });
+    const auto arc = arcs ? longest_arc(path, i, end, line ? line->chords() : 0, eps) : std::nullopt;
     if (arc && (!line || arc->end > line->end)) {
       pieces.push_back(*arc);
     } else {
@@ -67,23 +80,26 @@ std::vector<Piece> greedy(const Path& path, std::size_t begin, std::size_t end, 
   return pieces;
 }
 
-// Whether a chord at the end of an arc is no part of it: its length is off the even ones between, and its far
-// point is off the arc through the others.
+// Whether a chord at the end of an arc is no part of it: its length is off the even ones between, and its far point
+// off the arc through the others, or, where noise hides that, the path goes on in steps like the chord's.
 bool is_foreign(const Path& path, const Piece& arc, bool at_end, double eps, std::optional<Piece>& rest) {
   if (arc.chords() < kShortestArc + 1) return false;
   const std::size_t begin = arc.begin + (at_end ? 0 : 1), end = arc.end - (at_end ? 1 : 0);
   const double own = path.length[at_end ? arc.end - 1 : arc.begin];
-  const double even = unevenness(path, begin, end);
+  const double slack = 0.1 + 5 * unevenness(path, begin, end);
   const double next = path.length[at_end ? end - 1 : begin];
-  if (!(std::abs(own / next - 1) > 0.1 + 5 * even)) return false;
+  if (!(std::abs(own / next - 1) > slack)) return false;
   rest = try_arc(path, begin, end, eps);
   if (!rest) return false;
   const double off =
       distance_to_circle(std::get<CircularArc>(rest->curve), path.points[at_end ? arc.end : arc.begin]);
-  return off > 3 * rest->residual + 1e-3 * eps;
+  if (off > 3 * rest->residual + 1e-3 * eps) return true;
+  const std::size_t beyond = at_end ? arc.end : arc.begin - 1;
+  const bool known = at_end ? arc.end < path.chords() : arc.begin > 0;
+  return known && rest->residual > 0.1 * eps && std::abs(path.length[beyond] / own - 1) < slack;
 }
 
-std::vector<Piece> give_away_foreign_ends(const Path& path, std::vector<Piece> pieces, double eps) {
+std::vector<Piece> give_away_foreign_ends(const Path& path, const std::vector<Piece>& pieces, double eps) {
   std::vector<Piece> result;
   for (const Piece& piece : pieces) {
     if (!piece.is_arc()) {
@@ -93,11 +109,11 @@ std::vector<Piece> give_away_foreign_ends(const Path& path, std::vector<Piece> p
     Piece arc = piece;
     std::vector<Piece> behind;
     std::optional<Piece> rest;
-    while (is_foreign(path, arc, false, eps, rest)) {
+    for (std::size_t k = 0; k < kMostMoved && is_foreign(path, arc, false, eps, rest); ++k) {
       result.push_back(line_piece(path, arc.begin, arc.begin + 1));
       arc = *rest;
     }
-    while (is_foreign(path, arc, true, eps, rest)) {
+    for (std::size_t k = 0; k < kMostMoved && is_foreign(path, arc, true, eps, rest); ++k) {
       behind.push_back(line_piece(path, arc.end - 1, arc.end));
       arc = *rest;
     }
@@ -107,22 +123,40 @@ std::vector<Piece> give_away_foreign_ends(const Path& path, std::vector<Piece> p
   return result;
 }
 
-// Arcs take in single chords before them, and neighbours that are the same line or arc become one.
-std::vector<Piece> join_neighbours(const Path& path, const std::vector<Piece>& pieces, double eps) {
+bool is_short_line(const Piece& piece) { return piece.is_line() && piece.chords() <= kMostMoved; }
+
+// Two neighbours as one: an arc and a few chords that are steps of it, or two pieces of the same kind, which noise
+// may have cut apart.
+std::optional<Piece> joined(const Path& path, const Piece& a, const Piece& b, const GrowLimits& limits) {
+  std::optional<Piece> rest;
+  if (a.is_arc() || b.is_arc()) {
+    if (!a.is_arc() && !is_short_line(a)) return std::nullopt;
+    if (!b.is_arc() && !is_short_line(b)) return std::nullopt;
+    std::optional<Piece> arc = try_arc(path, a.begin, b.end, limits.joined);
+    if (!arc || (!a.is_arc() && is_foreign(path, *arc, false, limits.eps, rest))) return std::nullopt;
+    return !b.is_arc() && is_foreign(path, *arc, true, limits.eps, rest) ? std::nullopt : arc;
+  }
+  if (a.chords() == 1 || b.chords() == 1) return std::nullopt;
+  return try_line(path, a.begin, b.end, limits.joined);
+}
+
+// Joins neighbours, at most kMostMoved times for each piece that results, which keeps it linear.
+std::vector<Piece> join_neighbours(const Path& path, const std::vector<Piece>& pieces,
+                                   const GrowLimits& limits) {
   std::vector<Piece> result;
+  std::vector<std::size_t> joins;
   for (Piece piece : pieces) {
-    while (!result.empty()) {
-      const Piece& before = result.back();
-      const bool chord = before.is_line() && before.chords() == 1;
-      const bool same_kind = before.is_arc() == piece.is_arc() && before.chords() > 1 && piece.chords() > 1;
-      if (!(piece.is_arc() && chord) && !same_kind) break;
-      const std::optional<Piece> joined = piece.is_arc() ? try_arc(path, before.begin, piece.end, eps)
-                                                         : try_line(path, before.begin, piece.end, eps);
-      if (!joined) break;
-      piece = *joined;
+    std::size_t own = 0;
+    while (!result.empty() && own + joins.back() < kMostMoved) {
+      std::optional<Piece> both = joined(path, result.back(), piece, limits);
+      if (!both) break;
+      piece = std::move(*both);
+      own += joins.back() + 1;
       result.pop_back();
+      joins.pop_back();
     }
-    result.push_back(piece);
+    result.push_back(std::move(piece));
+    joins.push_back(own);
   }
   return result;
 }
@@ -156,9 +190,10 @@ double unevenness(const Path& path, std::size_t begin, std::size_t end) {
   return *largest / *smallest - 1;
 }
 
-std::vector<Piece> grow_pieces(const Path& path, std::size_t begin, std::size_t end, double eps, bool arcs) {
-  std::vector<Piece> pieces = join_neighbours(path, greedy(path, begin, end, eps, arcs), eps);
-  return give_away_foreign_ends(path, std::move(pieces), eps);
+std::vector<Piece> grow_pieces(const Path& path, std::size_t begin, std::size_t end, const GrowLimits& limits) {
+  std::vector<Piece> pieces = join_neighbours(path, greedy(path, begin, end, limits.eps, limits.arcs), limits);
+  pieces = give_away_foreign_ends(path, pieces, limits.eps);
+  return join_neighbours(path, pieces, limits);
 }
 
 }  // namespace meshcontour::detail

@@ -31,12 +31,17 @@ Vector tangent_of(const Piece& piece, bool at_end);
 /// Largest over smallest chord of a run, minus 1.
 double unevenness(const Path& path, std::size_t begin, std::size_t end);
 
-/// Greedy split of the points begin .. end into maximal lines (over two or more chords), maximal arcs (over
-/// three or more; not if `arcs` is false) and single chords, none farther than `eps` from its points; lengths
-/// are found by doubling and bisection. Arcs then take in the chords before them where these fit, give away
-/// end chords that are no part of their even steps, and join with equal neighbours. Nothing is `recognized`
-/// yet. O(N log N).
-std::vector<Piece> grow_pieces(const Path& path, std::size_t begin, std::size_t end, double eps,
-                               bool arcs = true);
+/// How far points may be off the pieces that are grown over them, model units.
+struct GrowLimits {
+  double eps = 0;     ///< of one piece
+  double joined = 0;  ///< of pieces that are joined, at least eps: noise may have cut them apart
+  bool arcs = true;   ///< false: lines only
+};
+
+/// Greedy split of the points begin .. end into maximal lines (over two or more chords), maximal arcs (over three or
+/// more) and single chords; lengths are found by doubling and bisection. Arcs then take in the few chords beside them
+/// that are steps like their own, give away end chords that are not, and join with equal neighbours. Nothing is
+/// `recognized` yet. O(N log N).
+std::vector<Piece> grow_pieces(const Path& path, std::size_t begin, std::size_t end, const GrowLimits& limits);
 
 }  // namespace meshcontour::detail

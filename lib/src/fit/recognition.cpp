@@ -23,12 +23,12 @@ constexpr double kTight = 1e-3;  // share of the tolerance at which a match is n
 // share of the tolerance.
 constexpr double kJointError = 0.1;
 
-// One description of the path.
+// One description of a run or ring.
 struct Attempt {
-  Recognition result;
+  std::size_t start = 0;  // of a ring: the point of the path that the pieces count from
+  std::vector<Piece> pieces;
   double cost = std::numeric_limits<double>::infinity();
   bool certain = false;  // every piece recognized
-  bool simple = false;   // one piece between hard corners: looser tolerances cannot do better
 };
 
 class Recognizer {
@@ -38,33 +38,28 @@ class Recognizer {
 
   Recognition run() {
     if (path_.chords() == 0) return {std::move(path_), {}};
-    start_at_hard_corner();
-    std::vector<Attempt> attempts;
-    double cheapest = std::numeric_limits<double>::infinity();
-    for (const double eps : ladder()) {
-      Attempt attempt = at_tolerance(eps);
-      cheapest = std::min(cheapest, attempt.cost);
-      attempts.push_back(std::move(attempt));
-      if (attempts.back().certain && (attempts.back().simple || eps >= kJointError * options_.tolerance))
-        break;
+    std::size_t corner = 0;
+    while (path_.closed && corner < path_.chords() && !is_hard(corner)) ++corner;
+    if (path_.closed && corner == path_.chords()) return recognize_ring();
+    if (corner > 0) path_ = rotated(path_, corner);
+    std::vector<Piece> pieces;
+    for (std::size_t begin = 0; begin < path_.chords();) {
+      std::size_t end = begin + 1;
+      while (end < path_.chords() && !is_hard(end)) ++end;
+      Attempt best = best_of_ladder([&](double eps) { return at_tolerance(path_, {begin, end, true}, eps); });
+      std::move(best.pieces.begin(), best.pieces.end(), std::back_inserter(pieces));
+      begin = end;
     }
-    for (Attempt& attempt : attempts) {
-      if (attempt.cost <= 1.15 * cheapest) return std::move(attempt.result);
-    }
-    return std::move(attempts.back().result);
+    return {std::move(path_), std::move(pieces)};
   }
 
  private:
   bool is_hard(std::size_t vertex) const { return path_.turn[vertex] > options_.corner_angle; }
 
-  // Makes a hard corner of a closed path its first point; a ring is one without.
-  void start_at_hard_corner() {
-    ring_ = path_.closed;
-    for (std::size_t i = 0; i < path_.chords() && ring_; ++i) {
-      if (!is_hard(i)) continue;
-      if (i > 0) path_ = rotated(path_, i);
-      ring_ = false;
-    }
+  Recognition recognize_ring() {
+    Attempt best = best_of_ladder([&](double eps) { return ring_at_tolerance(eps); });
+    if (best.start > 0) path_ = rotated(path_, best.start);
+    return {std::move(path_), std::move(best.pieces)};
   }
 
   std::vector<double> ladder() const {
@@ -79,24 +74,43 @@ class Recognizer {
     return rungs;
   }
 
-  Attempt at_tolerance(double eps) {
-    if (!ring_) return finish(path_, whole(path_, true), eps);
+  // The description at the tightest tolerance that is within 15 % of the shortest. Once every piece is recognized,
+  // looser tolerances are tried only as far as joints may be off, and not at all for a single piece.
+  template <class AtTolerance>
+  Attempt best_of_ladder(AtTolerance at) {
+    std::vector<Attempt> attempts;
+    double cheapest = std::numeric_limits<double>::infinity(), certain_at = 0;
+    for (const double eps : ladder()) {
+      attempts.push_back(at(eps));
+      const Attempt& last = attempts.back();
+      cheapest = std::min(cheapest, last.cost);
+      if (!last.certain) continue;
+      if (certain_at == 0) certain_at = eps;
+      if (last.pieces.size() == 1 || eps >= std::max(kJointError * options_.tolerance, 4 * certain_at)) break;
+    }
+    const auto best = std::find_if(attempts.begin(), attempts.end(),
+                                   [&](const Attempt& a) { return a.cost <= 1.15 * cheapest; });
+    return std::move(*best);
+  }
+
+  Attempt ring_at_tolerance(double eps) {
     if (std::optional<Attempt> conic = as_closed_conic(eps)) return std::move(*conic);
-    Path turned = rotated(path_, after_longest_chord());
+    std::size_t start = after_longest_chord();
+    Path turned = rotated(path_, start);
     for (int pass = 0; pass < 2; ++pass) {
-      const Run run = whole(turned, false);
-      const std::vector<Piece> pieces = judged(turned, run, eps);
+      const std::vector<Piece> pieces = judged(turned, {0, turned.chords(), false}, eps);
       const auto largest = std::max_element(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
         return (a.recognized ? a.chords() : 0) < (b.recognized ? b.chords() : 0);
       });
-      if (!largest->recognized) return as_free_ring(turned, eps);
+      if (!largest->recognized) return free_ring(turned, start, eps);
       if (largest->begin == 0) break;
-      turned = rotated(turned, largest->begin);
+      start = (start + largest->begin) % turned.chords();
+      turned = rotated(path_, start);
     }
-    return finish(turned, whole(turned, false), eps);
+    Attempt attempt = at_tolerance(turned, {0, turned.chords(), false}, eps);
+    attempt.start = start;
+    return attempt;
   }
-
-  static Run whole(const Path& path, bool ends_hard) { return {0, path.chords(), ends_hard}; }
 
   std::size_t after_longest_chord() const {
     const auto longest = std::max_element(path_.length.begin(), path_.length.end());
@@ -106,8 +120,6 @@ class Recognizer {
   std::optional<Attempt> as_closed_conic(double eps) const {
     if (!options_.primitives || path_.chords() < 5) return std::nullopt;
     const std::span<const Point> points = path_.run(0, path_.chords() - 1);
-    Attempt attempt;
-    attempt.certain = attempt.simple = true;
     Piece piece{0, path_.chords(), LineSegment{}, 0, true};
     if (const std::optional<ArcFit> circle = fit_circle(points, eps)) {
       piece.curve = circle->arc;
@@ -119,53 +131,35 @@ class Recognizer {
       piece.curve = ellipse->arc;
       piece.residual = ellipse->residual;
     }
-    attempt.result = {path_, {piece}};
-    attempt.cost = description_cost(attempt.result.pieces);
+    return made({piece});
+  }
+
+  // A ring without any recognized piece: one periodic curve, or open ones from a corner back to it.
+  Attempt free_ring(const Path& turned, std::size_t start, double eps) {
+    const std::size_t n = turned.chords();
+    for (std::size_t i = 1; i < n; ++i) {
+      if (!is_coarse_corner(turned, i, options_)) continue;
+      Attempt attempt = at_tolerance(rotated(turned, i), {0, n, true}, eps);
+      attempt.start = (start + i) % n;
+      return attempt;
+    }
+    const Run ring{0, n, false};
+    Attempt attempt = made(split_free_form(turned, ring, ring, eps, options_, splines_));
+    attempt.start = start;
     return attempt;
   }
 
-  // A ring without any recognized piece: one periodic curve, or an open one from a soft corner back to it.
-  Attempt as_free_ring(Path& turned, double eps) {
-    const std::size_t n = turned.chords();
-    for (std::size_t i = 0; i < n; ++i) {
-      if (i > 0 && is_coarse_corner(turned, i, options_)) {
-        turned = rotated(turned, i);
-        return finish(turned, whole(turned, true), eps);
-      }
-    }
-    const Run run = whole(turned, false);
-    return made(turned, split_free_form(turned, run, run, eps, options_, splines_));
-  }
-
   std::vector<Piece> judged(const Path& path, const Run& run, double eps) const {
-    std::vector<Piece> pieces = grow_pieces(path, run.begin, run.end, eps, options_.primitives);
+    const GrowLimits limits{eps, std::min(2 * eps, options_.tolerance), options_.primitives};
+    std::vector<Piece> pieces = grow_pieces(path, run.begin, run.end, limits);
     judge_pieces(path, run, pieces, eps, options_);
     return pieces;
   }
 
-  // The runs between hard corners: recognized pieces stay, what lies between them is free form.
-  Attempt finish(const Path& path, const Run& all, double eps) {
-    std::vector<Piece> done;
-    for (std::size_t begin = all.begin; begin < all.end;) {
-      std::size_t end = begin + 1;
-      while (end < all.end && path.turn[end] <= options_.corner_angle) ++end;
-      const Run run{begin, end, all.ends_hard || begin > all.begin || end < all.end};
-      add_run(path, run, eps, done);
-      begin = end;
-    }
-    Attempt attempt = made(path, std::move(done));
-    std::size_t runs = 1;
-    for (std::size_t i = 1; i < path.chords(); ++i) runs += path.turn[i] > options_.corner_angle;
-    attempt.simple = attempt.result.pieces.size() == runs;
-    if (options_.bounded) {  // one edge between patch corners is likelier than several
-      const double joint = eps <= kTight * options_.tolerance ? 3 : 10;
-      attempt.cost += joint * static_cast<double>(attempt.result.pieces.size() - runs);
-    }
-    return attempt;
-  }
-
-  void add_run(const Path& path, const Run& run, double eps, std::vector<Piece>& done) {
+  // Recognized pieces stay, what lies between them is free form.
+  Attempt at_tolerance(const Path& path, const Run& run, double eps) {
     const std::vector<Piece> pieces = judged(path, run, eps);
+    std::vector<Piece> done;
     for (std::size_t k = 0; k < pieces.size();) {
       if (pieces[k].recognized) {
         done.push_back(pieces[k++]);
@@ -178,20 +172,25 @@ class Recognizer {
       std::move(split.begin(), split.end(), std::back_inserter(done));
       k = last + 1;
     }
+    Attempt attempt = made(std::move(done));
+    if (options_.bounded) {  // one edge between patch corners is likelier than several
+      const double joint = eps <= kTight * options_.tolerance ? 3 : 10;
+      attempt.cost += joint * static_cast<double>(attempt.pieces.size() - 1);
+    }
+    return attempt;
   }
 
-  static Attempt made(const Path& path, std::vector<Piece> pieces) {
+  static Attempt made(std::vector<Piece> pieces) {
     Attempt attempt;
     attempt.cost = description_cost(pieces);
     attempt.certain = std::all_of(pieces.begin(), pieces.end(), [](const Piece& p) { return p.recognized; });
-    attempt.result = {path, std::move(pieces)};
+    attempt.pieces = std::move(pieces);
     return attempt;
   }
 
   Path path_;
   const RecognitionOptions& options_;
   SplineCache splines_;
-  bool ring_ = false;
 };
 
 }  // namespace
