@@ -2,23 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <new>
+#include <cstring>
+#include <map>
 #include <set>
+#include <thread>
 
+#include "inputs.hpp"
+#include "journal.hpp"
 #include "meshcontour/output.hpp"
-#include "meshcontour/report.hpp"
+#include "outcome.hpp"
+#include "progress.hpp"
+#include "worker_pool.hpp"
 
 namespace meshcontour::app {
 namespace {
-
-void print_diagnostics(const std::vector<Diagnostic>& diagnostics, int verbosity) {
-  for (const Diagnostic& diagnostic : diagnostics) {
-    const int needed = diagnostic.severity == Diagnostic::Severity::Warning ? 0 : 1;
-    if (verbosity >= needed) fmt::print(stderr, "meshcontour: {}\n", diagnostic.text());
-  }
-}
 
 void print_results(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
@@ -26,46 +25,149 @@ void print_results(const std::string& text) {
   }
 }
 
-int run_job(const Job& job, const CommandLine& line) {
-  const Run run = meshcontour::run(job);
-  print_diagnostics(run.diagnostics, line.verbosity);
-  if (job.outputs.empty() && line.report.empty()) {
-    print_results(summary(run.model, run.boundaries, run.contours, run.timings.stages()));
-  }
-  return 0;
-}
-
-// Two inputs that write the same file would leave the last one's result only.
-std::vector<Job> make_jobs(const CommandLine& line) {
+std::vector<Job> make_jobs(const CommandLine& line, const std::vector<std::string>& inputs) {
   std::vector<Job> jobs;
   std::set<std::string> paths;
-  for (std::size_t i = 0; i < line.inputs.size(); ++i) {
-    jobs.push_back(make_job(line, line.inputs[i], i + 1));
-    for (const OutputRequest& output : jobs.back().outputs) {
-      if (paths.insert(output.path).second) continue;
-      throw Error(ErrorCode::Usage, fmt::format("the output '{}' is named twice", printable(output.path)));
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    jobs.push_back(make_job(line, inputs[i], i + 1, inputs.size() > 1));
+    for (const std::string& path : output_paths(jobs.back())) {
+      if (paths.insert(path).second) continue;
+      throw Error(ErrorCode::Usage, fmt::format("the output '{}' is named twice", printable(path)));
     }
   }
   return jobs;
 }
 
+// What a worker that could not answer leaves behind.
+Outcome lost_outcome(const Job& job, const TaskResult& result, const CommandLine& line) {
+  Outcome outcome;
+  outcome.report.file = job.input;
+  const std::string name = printable(job.input);
+  if (result.end == TaskResult::End::TimedOut) {
+    fail(ErrorCode::TimeLimit, fmt::format("{}: took longer than {} s", name, line.timeout), outcome);
+  } else if (result.end == TaskResult::End::TooLarge) {
+    fail(ErrorCode::OutOfMemory, fmt::format("{}: needs more memory than {} MB", name, line.max_memory / 1'000'000),
+         outcome);
+  } else {
+    fail(ErrorCode::Internal,
+         fmt::format("{}: the program was ended by signal {} ({})", name, result.signal, strsignal(result.signal)),
+         outcome);
+  }
+  return outcome;
+}
+
+// Takes outcomes as they come, prints them in the order of the inputs and keeps their reports.
+class Collector {
+ public:
+  Collector(const std::vector<Job>& jobs, Journal& journal, const CommandLine& line)
+      : jobs_(jobs), journal_(journal), progress_(jobs.size(), line.verbosity), reports_(jobs.size()) {}
+
+  void take(std::size_t job, Outcome outcome) {
+    if (outcome.report.outcome == FileReport::Outcome::Done) journal_.add(jobs_[job]);
+    reports_[job] = outcome.report;
+    waiting_.emplace(job, std::move(outcome));
+    progress_.step(jobs_[job].input);
+    for (auto next = waiting_.begin(); next != waiting_.end() && next->first == printed_; ++printed_) {
+      print(next->second);
+      next = waiting_.erase(next);
+    }
+  }
+
+  const std::vector<FileReport>& reports() const { return reports_; }
+
+ private:
+  void print(const Outcome& outcome) {
+    if (outcome.output.empty() && outcome.errors.empty()) return;
+    progress_.clear();
+    if (!outcome.output.empty()) print_results(outcome.output);
+    fmt::print(stderr, "{}", outcome.errors);
+  }
+
+  const std::vector<Job>& jobs_;
+  Journal& journal_;
+  Progress progress_;
+  std::vector<FileReport> reports_;
+  std::map<std::size_t, Outcome> waiting_;
+  std::size_t printed_ = 0;
+};
+
+unsigned worker_count(const CommandLine& line, std::size_t tasks) {
+  const unsigned wanted = line.threads > 0 ? line.threads : std::max(1u, std::thread::hardware_concurrency());
+  return static_cast<unsigned>(std::min<std::size_t>(wanted, tasks));
+}
+
+void run_jobs(std::vector<Job> jobs, const CommandLine& line, Collector& collector, const Journal& journal) {
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    if (!journal.holds(jobs[i])) {
+      open.push_back(i);
+      continue;
+    }
+    Outcome outcome;
+    outcome.report.file = jobs[i].input;
+    outcome.report.outcome = FileReport::Outcome::Skipped;
+    outcome.report.message = "up to date";
+    collector.take(i, std::move(outcome));
+  }
+  if (jobs.size() == 1 && line.timeout == 0 && line.max_memory == 0) {
+    for (const std::size_t i : open) collector.take(i, run_job(jobs[i], line));
+    return;
+  }
+  const unsigned workers = worker_count(line, open.size());
+  if (workers > 1) {
+    for (Job& job : jobs) set_threads(job, 1);
+  }
+  run_in_workers(
+      open.size(), {workers, line.timeout, line.max_memory},
+      [&](std::size_t task) { return to_bytes(run_job(jobs[open[task]], line)); },
+      [&](std::size_t task, const TaskResult& result) {
+        const std::size_t job = open[task];
+        collector.take(job, result.end == TaskResult::End::Done ? from_bytes(result.payload)
+                                                                : lost_outcome(jobs[job], result, line));
+      });
+}
+
+// Opened before the work, so that a report that cannot be written is found first.
+class Reports {
+ public:
+  explicit Reports(const CommandLine& line) : line_(line) {
+    for (const auto& [format, path] : line.reports) sinks_.push_back(&outputs_.open(path));
+  }
+
+  void write(const std::vector<FileReport>& reports) {
+    for (std::size_t i = 0; i < sinks_.size(); ++i) {
+      write_report(line_.reports[i].first, reports, this_machine(), start_, *sinks_[i]);
+    }
+    outputs_.commit();
+  }
+
+ private:
+  const CommandLine& line_;
+  std::int64_t start_ = unix_time();
+  OutputSet outputs_;
+  std::vector<Sink*> sinks_;
+};
+
 }  // namespace
 
 int run(const CommandLine& line) {
   prepare_process();
-  const std::vector<Job> jobs = make_jobs(line);
-  if (jobs.size() == 1) return run_job(jobs[0], line);
-  std::size_t failed = 0;
-  for (const Job& job : jobs) {
-    try {
-      run_job(job, line);
-    } catch (const Error& error) {
-      ++failed;
-      fmt::print(stderr, "meshcontour: {}\n", error.what());
-    }
+  const std::vector<Job> jobs = make_jobs(line, take_shard(expand_inputs(line.inputs), line.shard));
+  Reports reports(line);
+  Journal journal(line.resume, line);
+  Collector collector(jobs, journal, line);
+  run_jobs(jobs, line, collector, journal);
+  reports.write(collector.reports());
+
+  const auto failures = std::ranges::count(collector.reports(), FileReport::Outcome::Failed, &FileReport::outcome);
+  if (jobs.size() == 1) return collector.reports().front().exit_code;
+  if (line.verbosity >= 0) {
+    const auto skipped = std::ranges::count(collector.reports(), FileReport::Outcome::Skipped, &FileReport::outcome);
+    fmt::print(stderr, "meshcontour: {} inputs: {} done, {} failed{}\n", jobs.size(),
+               static_cast<std::ptrdiff_t>(jobs.size()) - failures - skipped, failures,
+               skipped > 0 ? fmt::format(", {} were up to date", skipped) : "");
   }
-  if (failed > 0) fmt::print(stderr, "meshcontour: {} of {} inputs failed\n", failed, jobs.size());
-  return failed > 0 ? 1 : 0;
+  return failures > 0 ? 1 : 0;
 }
 
 }  // namespace meshcontour::app

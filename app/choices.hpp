@@ -8,6 +8,9 @@
 #include "meshcontour/boundary.hpp"
 #include "meshcontour/fit.hpp"
 #include "meshcontour/render.hpp"
+#include "meshcontour/segmentation.hpp"
+#include "meshcontour/subdivision.hpp"
+#include "meshcontour/sweep.hpp"
 #include "meshcontour/write.hpp"
 
 namespace meshcontour::app {
@@ -37,12 +40,28 @@ inline constexpr Choices<GlBackend, 3> kBackends = {
     {{"auto", GlBackend::Automatic}, {"osmesa", GlBackend::OSMesa}, {"egl", GlBackend::Egl}}};
 inline constexpr Choices<Extractor, 2> kExtractors = {
     {{"sorted", Extractor::Sorted}, {"halfedge", Extractor::Halfedge}}};
-inline constexpr Choices<FitMethod, 2> kFitMethods = {
-    {{"control", FitMethod::Control}, {"interpolate", FitMethod::Interpolate}}};
+inline constexpr Choices<FitMethod, 4> kFitMethods = {{{"control", FitMethod::Control},
+                                                       {"interpolate", FitMethod::Interpolate},
+                                                       {"approximate", FitMethod::Approximate},
+                                                       {"primitives", FitMethod::Primitives}}};
+inline constexpr Choices<PatchSource, 5> kPatchSources = {{{"auto", PatchSource::Automatic},
+                                                           {"file", PatchSource::File},
+                                                           {"angle", PatchSource::Angle},
+                                                           {"components", PatchSource::Components},
+                                                           {"none", PatchSource::None}}};
+inline constexpr Choices<BoundaryRule, 2> kBoundaryRules = {
+    {{"reflect", BoundaryRule::Reflect}, {"trig", BoundaryRule::Trigonometric}}};
+inline constexpr Choices<FrameMethod, 3> kFrameMethods = {{{"rmf", FrameMethod::RotationMinimizing},
+                                                           {"mit", FrameMethod::Projection},
+                                                           {"frenet", FrameMethod::Frenet}}};
 inline constexpr Choices<CsvContent, 2> kCsvContents = {
     {{"loops", CsvContent::Loops}, {"curves", CsvContent::Curves}}};
 inline constexpr Choices<ObjContent, 2> kObjContents = {
     {{"polylines", ObjContent::Polylines}, {"curves", ObjContent::Curves}}};
+inline constexpr Choices<DxfContent, 2> kDxfContents = {
+    {{"curves", DxfContent::Curves}, {"polyline", DxfContent::Polyline}}};
+inline constexpr Choices<StepSchema, 2> kStepSchemas = {{{"ap242", StepSchema::Ap242}, {"ap214", StepSchema::Ap214}}};
+inline constexpr Choices<EdgeUse, 2> kEdgeUses = {{{"all", EdgeUse::All}, {"unique", EdgeUse::Unique}}};
 
 /// "mesh, edges, curves"
 template <class T, std::size_t N>

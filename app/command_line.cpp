@@ -7,6 +7,7 @@
 #include <functional>
 #include <iostream>
 #include <limits>
+#include <numbers>
 #include <tuple>
 
 #include "choices.hpp"
@@ -16,7 +17,7 @@
 namespace meshcontour::app {
 namespace {
 
-constexpr const char* kFooter = R"(The kind of an output follows its extension: .png .csv .obj .json
+constexpr const char* kFooter = R"(The kind of an output follows its extension: .png .csv .obj .step .dxf .svg .json
 With several inputs use {stem}, {dir} and {n} in the names of the outputs.
 Angles are in degrees, lengths in the unit of the model.
 
@@ -28,6 +29,8 @@ with several inputs: 0 all good, 1 some failed.)";
 struct PictureTexts {
   std::string layers, size, background;
 };
+
+constexpr double kRadians = std::numbers::pi / 180;  // a degree
 
 // The options of one group of the help.
 class Group {
@@ -68,6 +71,16 @@ class Group {
         ->default_str(word_of(choices, target));
   }
 
+  /// Degrees for the user, radians inside; between 0 and `largest` degrees.
+  CLI::Option* add_angle(const std::string& name, double& radians, double largest, const std::string& help) {
+    const auto parse = [&radians, name, largest](const std::string& text) {
+      const double degrees = parse_positive(text, name);
+      if (degrees >= largest) refuse(name, text, fmt::format("degrees below {}", largest));
+      radians = degrees * kRadians;
+    };
+    return add_parsed(name, "DEGREES", parse, help)->default_str(fmt::format("{:.6g}", radians / kRadians));
+  }
+
   /// A whole number up to `largest`.
   template <class T>
   CLI::Option* add_count(const std::string& name, T& target, const std::string& help,
@@ -86,14 +99,37 @@ class Group {
 void add_output_options(Group group, CommandLine& line) {
   group.add_list("-o,--output", line.outputs, "FILE", "File to write, repeatable; - is standard output");
   group.add_list("--format", line.formats, "WORD", "Format of an output without an extension, repeatable");
-  group.add_text("--report", line.report, "FILE", "Write counts and the time of each stage, as JSON");
+  const auto parse_report = [&line](const std::string& text) { line.reports.push_back(parse_report_target(text)); };
+  group.add_parsed("--report", "[FORMAT:]FILE", parse_report,
+                   "Write counts and the time of each stage, repeatable: json (default), gbench, junit, gha, trace")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->trigger_on_parse();
   group.add_flag("--timings", line.job.timings_in_json,
                  "List these times in .json outputs too, whose bytes then differ from run to run");
+  const auto add_mesh = [&line](const std::string& path) { line.meshes.push_back(path); };
+  group.add_parsed("--save-mesh", "FILE", add_mesh, "Write the mesh, repeatable: .off, .obj, .stl, .ply")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->trigger_on_parse();
+  group.add_action("--mesh-text", [&line] { line.job.mesh.binary = false; }, "Text instead of binary .stl and .ply");
   group.add_choice("--csv-of", line.job.write.csv, kCsvContents, "Rows of a .csv");
   group.add_choice("--obj", line.job.write.obj, kObjContents, "Contents of an .obj");
+  group.add_choice("--dxf", line.job.write.dxf, kDxfContents, "Entities of a .dxf");
+  group.add_choice("--step", line.job.write.step, kStepSchemas, "Schema of a .step");
+  group.add_choice("--edges", line.job.write.edges, kEdgeUses, "Edges that two patches share, in .obj curves, .step, .dxf, .svg");
 }
 
 void add_model_options(Group group, CommandLine& line) {
+  Job& job = line.job;
+  group.add_choice("--patches-from", job.segment.source, kPatchSources, "Where patches come from");
+  group.add_angle("--feature-angle", job.segment.feature_angle, 180, "An edge is sharp above it; for files without patches");
+  const auto parse_weld = [&job](const std::string& text) { job.read.weld = parse_length(text, "--weld"); };
+  group.add_parsed("--weld", "LENGTH", parse_weld,
+                   "Join points of polygon files that are no farther apart; without it only STL's equal points");
+  group.add_flag("--repair", job.repair, "Cut the surface apart where it is no manifold");
+  group.add_count("--subdivide", job.subdivisions, "Steps of butterfly subdivision; contours stay curves of their own", 12);
+  group.add_choice("--boundary-rule", job.subdivide.boundary, kBoundaryRules, "Butterfly stencils at borders");
+  group.add_choice("--frames", job.read.sweep.frames, kFrameMethods, "Frames along the curves of .swp files");
+  group.add_flag("--caps", job.read.sweep.caps, "Close the open ends of swept surfaces");
   const auto parse_patches = [&line](const std::string& text) {
     line.job.selection.patches = parse_ranges(text, "--patches");
   };
@@ -107,7 +143,12 @@ void add_model_options(Group group, CommandLine& line) {
 void add_contour_options(Group group, CommandLine& line) {
   group.add_choice("--extractor", line.job.boundary.extractor, kExtractors, "How boundary edges are found");
   group.add_flag("--compare", line.compare, "Run every extractor, print counts and times, fail if they disagree");
-  group.add_choice("--fit", line.job.fit.method, kFitMethods, "How loops become curves");
+  FitOptions& fit = line.job.fit;
+  group.add_choice("--fit", fit.method, kFitMethods, "How loops become curves");
+  const auto parse_tolerance = [&fit](const std::string& text) { fit.tolerance = parse_positive(text, "--tolerance"); };
+  group.add_parsed("--tolerance", "LENGTH", parse_tolerance,
+                   "Largest distance of curve and loop; without it 1e-4 of the loop's box diagonal");
+  group.add_angle("--corner-angle", fit.corner_angle, 180, "A loop that turns by more has a corner");
 }
 
 void add_picture_options(Group group, RenderOptions& render, PictureTexts& texts) {
@@ -121,8 +162,16 @@ void add_picture_options(Group group, RenderOptions& render, PictureTexts& texts
   group.add_choice("--gl", render.backend, kBackends, "OpenGL context");
 }
 
-void add_run_options(Group group, CommandLine& line, unsigned& threads) {
-  group.add_count("-j,--threads", threads, "Threads; 0: one per processor", 1024);
+void add_run_options(Group group, CommandLine& line) {
+  group.add_count("-j,--jobs", line.threads, "Threads, with several inputs processes; 0: one per processor", 1024);
+  const auto parse_timeout = [&line](const std::string& text) { line.timeout = parse_positive(text, "--timeout"); };
+  group.add_parsed("--timeout", "SECONDS", parse_timeout, "Longest time a file may take");
+  const auto parse_memory = [&line](const std::string& text) { line.max_memory = parse_bytes(text, "--max-memory"); };
+  group.add_parsed("--max-memory", "SIZE", parse_memory, "Most memory a file may take, as in 500MB or 2GB");
+  group.add_text("--resume", line.resume, "JOURNAL", "Remember finished inputs there, and skip those it remembers");
+  const auto parse_part = [&line](const std::string& text) { line.shard = parse_shard(text); };
+  group.add_parsed("--shard", "I/N", parse_part, "Only the I-th of N parts of the inputs, for array jobs");
+  group.add_count("--repeat", line.repeat, "Run every input so often; reports have the medians", 1000);
   group.add_action("-q,--quiet", [&line] { line.verbosity = -1; }, "Errors only");
   group.add_action("-v,--verbose", [&line] { line.verbosity = 1; }, "Notes too");
 }
@@ -133,16 +182,47 @@ std::string format_names() {
   return out;
 }
 
+// Every option that was given and changes results, with its values.
+std::string options_text(const CLI::App& app) {
+  std::string text;
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string name = option->get_name();
+    const bool matters = option->count() > 0 && name != "INPUT" && name != "--jobs" && name != "--resume" &&
+                         name != "--shard" && name != "--report" && name != "--quiet" && name != "--verbose";
+    if (matters) text += fmt::format("{}={}\n", name, fmt::join(option->results(), ","));
+  }
+  return text;
+}
+
 [[noreturn]] void usage(const std::string& message) {
   throw Error(ErrorCode::Usage, message + "\nTry 'meshcontour --help'.");
 }
 
+std::string output_path(const std::string& name, const std::string& input, std::size_t number, bool several) {
+  const std::string path = fill_template(name, input, number);
+  if (several && path == name && path != "-") {
+    usage(fmt::format("with several inputs the name of the output '{}' needs {{stem}} or {{n}}", printable(name)));
+  }
+  return path;
+}
+
 }  // namespace
+
+void set_threads(Job& job, unsigned threads) {
+  job.read.threads = job.segment.threads = job.subdivide.threads = job.boundary.threads = job.fit.threads =
+      job.render.threads = threads;
+}
+
+std::vector<std::string> output_paths(const Job& job) {
+  std::vector<std::string> paths;
+  for (const OutputRequest& output : job.outputs) paths.push_back(output.path);
+  for (const MeshRequest& mesh : job.meshes) paths.push_back(mesh.path);
+  return paths;
+}
 
 std::optional<CommandLine> parse_command_line(int argc, const char* const* argv) {
   CommandLine line;
   PictureTexts texts;
-  unsigned threads = 0;
   CLI::App app("Contour curves of tessellated CAD models, headless.", "meshcontour");
   app.set_version_flag("--version", fmt::format("meshcontour {}", version()));
   app.footer(kFooter);
@@ -151,7 +231,7 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
   add_model_options({app, "Model"}, line);
   add_contour_options({app, "Contours"}, line);
   add_picture_options({app, "Pictures"}, line.job.render, texts);
-  add_run_options({app, "Run"}, line, threads);
+  add_run_options({app, "Run"}, line);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
@@ -167,19 +247,20 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
   if (app.count("--background") > 0) render.background = parse_background(texts.background);
   if (render.view == View::Report) render.width = render.height = 500;
   if (app.count("--size") > 0) std::tie(render.width, render.height) = parse_size(texts.size);
-  line.job.read.threads = line.job.boundary.threads = line.job.fit.threads = threads;
+  if (line.repeat == 0) refuse("--repeat", "0", "at least 1");
+  set_threads(line.job, line.threads);
+  line.job.write.view = render.view;
+  line.job.write.timestamp = source_date_epoch().value_or(line.job.write.timestamp);
+  line.options_text = options_text(app);
   return line;
 }
 
-Job make_job(const CommandLine& command_line, const std::string& input, std::size_t number) {
+Job make_job(const CommandLine& command_line, const std::string& input, std::size_t number, bool several) {
   Job job = command_line.job;
   job.input = input;
   auto format = command_line.formats.begin();
   for (const std::string& output : command_line.outputs) {
-    const std::string path = fill_template(output, input, number);
-    if (command_line.inputs.size() > 1 && path == output && path != "-") {
-      usage(fmt::format("with several inputs the name of the output '{}' needs {{stem}} or {{n}}", printable(output)));
-    }
+    const std::string path = output_path(output, input, number, several);
     auto known = output_format(std::filesystem::path(path).extension().string());
     if (!known) {
       if (format == command_line.formats.end()) {
@@ -191,6 +272,12 @@ Job make_job(const CommandLine& command_line, const std::string& input, std::siz
       ++format;
     }
     job.outputs.push_back({path, *known});
+  }
+  for (const std::string& mesh : command_line.meshes) {
+    const std::string path = output_path(mesh, input, number, several);
+    const auto known = mesh_format(std::filesystem::path(path).extension().string());
+    if (!known) refuse("--save-mesh", path, "a name that ends with .off, .obj, .stl or .ply");
+    job.meshes.push_back({path, *known});
   }
   return job;
 }

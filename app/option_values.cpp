@@ -44,6 +44,45 @@ double parse_positive(std::string_view text, std::string_view option) {
   return *value;
 }
 
+double parse_length(std::string_view text, std::string_view option) {
+  const auto value = whole_number<double>(text);
+  if (!value || !std::isfinite(*value) || *value < 0) refuse(option, text, "a number, zero or above");
+  return *value;
+}
+
+std::uint64_t parse_bytes(std::string_view text, std::string_view option) {
+  constexpr std::pair<std::string_view, double> kUnits[] = {{"KB", 1e3},      {"MB", 1e6},      {"GB", 1e9},
+                                                            {"KiB", 1 << 10}, {"MiB", 1 << 20}, {"GiB", 1 << 30},
+                                                            {"B", 1}};
+  double scale = 1;
+  std::string_view digits = text;
+  for (const auto& [unit, bytes] : kUnits) {
+    if (!digits.ends_with(unit)) continue;
+    digits.remove_suffix(unit.size());
+    scale = bytes;
+    break;
+  }
+  const auto value = whole_number<double>(digits);
+  if (!value || !(*value * scale >= 1) || *value * scale > 1e18) refuse(option, text, "a size as in 500MB or 2GB");
+  return static_cast<std::uint64_t>(*value * scale);
+}
+
+std::pair<std::size_t, std::size_t> parse_shard(std::string_view text) {
+  const std::size_t slash = text.find('/');
+  const auto number = whole_number<std::size_t>(text.substr(0, slash));
+  const auto count = whole_number<std::size_t>(slash == text.npos ? "" : text.substr(slash + 1));
+  if (!number || !count || *number < 1 || *number > *count) refuse("--shard", text, "I/N with I from 1 to N");
+  return {*number, *count};
+}
+
+std::pair<ReportFormat, std::string> parse_report_target(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  const auto format = colon == text.npos ? std::nullopt : report_format(text.substr(0, colon));
+  const std::string_view file = format ? text.substr(colon + 1) : text;
+  if (file.empty()) refuse("--report", text, "a file, or FORMAT:FILE");
+  return {format.value_or(ReportFormat::Json), std::string(file)};
+}
+
 std::pair<int, int> parse_size(std::string_view text) {
   const std::size_t cross = text.find('x');
   const auto width = whole_number<int>(text.substr(0, cross));

@@ -10,6 +10,7 @@
 
 #include "choices.hpp"
 #include "meshcontour/error.hpp"
+#include "meshcontour/report.hpp"
 
 namespace meshcontour::app {
 
@@ -23,6 +24,18 @@ std::uint64_t parse_count(std::string_view text, std::string_view option, std::u
 
 /// A finite number above zero.
 double parse_positive(std::string_view text, std::string_view option);
+
+/// A finite number, zero or above.
+double parse_length(std::string_view text, std::string_view option);
+
+/// "500MB", "2GB", "1.5GiB", "4096"; in bytes, at least 1.
+std::uint64_t parse_bytes(std::string_view text, std::string_view option);
+
+/// "3/8": number from 1 and count.
+std::pair<std::size_t, std::size_t> parse_shard(std::string_view text);
+
+/// "FILE" or "FORMAT:FILE"; what stands before a colon and is no format is part of the file's name.
+std::pair<ReportFormat, std::string> parse_report_target(std::string_view text);
 
 /// "1280x960"
 std::pair<int, int> parse_size(std::string_view text);

@@ -78,7 +78,7 @@ TEST_CASE("outputs: several inputs fill the template, and a bad one does not sto
   const ProgramResult result = run_program({"first.xml", "bad.xml", "second.xml", "-o", "{dir}/{stem}-{n}.csv"},
                                            {.folder = folder.path().string()});
   CHECK(result.code == 1);
-  CHECK_THAT(result.errors, Contains("bad.xml") && Contains("1 of 3 inputs failed"));
+  CHECK_THAT(result.errors, Contains("bad.xml") && Contains("3 inputs: 2 done, 1 failed"));
   CHECK(folder.names() ==
         std::set<std::string>{"first.xml", "bad.xml", "second.xml", "first-1.csv", "second-3.csv"});
 }

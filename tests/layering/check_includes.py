@@ -19,7 +19,7 @@ LIBRARIES = {
     r"stb/|stb_|libdeflate": ["lib/src/write/png", "tests/"],
     r"tinyxml2": ["lib/src/read/", "tests/"],
     r"tbb/|oneapi/": ["lib/src/base/parallel"],
-    r"nlohmann/": ["lib/src/write/", "lib/src/report/", "tests/"],
+    r"nlohmann/": ["app/outcome", "lib/src/write/", "lib/src/report/", "tests/"],
     r"zstd": ["lib/src/multires/"],
     r"fmt/": ["app/", "lib/src/", "tests/"],
     r"catch2/": ["tests/"],

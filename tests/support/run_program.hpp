@@ -19,10 +19,10 @@ struct ProgramResult {
 };
 
 struct ProgramOptions {
-  std::string folder;                    ///< working folder; empty: this one
-  std::string input = "/dev/null";       ///< standard input
-  std::vector<std::string> environment;  ///< NAME=value; empty: this process's own
-  std::string output;                    ///< file for standard output; empty: collected
+  std::string folder = {};                    ///< working folder; empty: this one
+  std::string input = "/dev/null";            ///< standard input
+  std::vector<std::string> environment = {};  ///< NAME=value; empty: this process's own
+  std::string output = {};                    ///< file for standard output; empty: collected
 };
 
 inline std::size_t count_lines(const std::string& text) {

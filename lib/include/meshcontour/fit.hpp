@@ -18,7 +18,7 @@ enum class FitMethod {
 };
 
 struct FitOptions {
-  FitMethod method = FitMethod::Control;
+  FitMethod method = FitMethod::Primitives;
   double tolerance = 0;  ///< largest distance of curve and loop vertices, model units; 0: 1e-4 of the loop's box diagonal
   double corner_angle = 35 * std::numbers::pi / 180;  ///< a loop turns by more than this at a corner, radians
   unsigned threads = 0;                               ///< 0: one per processor

@@ -7,10 +7,13 @@
 
 #include "meshcontour/boundary.hpp"
 #include "meshcontour/fit.hpp"
+#include "meshcontour/mesh_write.hpp"
 #include "meshcontour/model.hpp"
 #include "meshcontour/read.hpp"
 #include "meshcontour/render.hpp"
 #include "meshcontour/report.hpp"
+#include "meshcontour/segmentation.hpp"
+#include "meshcontour/subdivision.hpp"
 #include "meshcontour/write.hpp"
 
 namespace meshcontour {
@@ -19,6 +22,12 @@ namespace meshcontour {
 struct OutputRequest {
   std::string path;  ///< "-": standard output
   OutputFormat format = OutputFormat::Json;
+};
+
+/// One file to write the mesh to.
+struct MeshRequest {
+  std::string path;  ///< "-": standard output
+  MeshFormat format = MeshFormat::Ply;
 };
 
 /// The patches that outputs are restricted to.
@@ -33,12 +42,18 @@ struct PatchSelection {
 struct Job {
   std::string input;  ///< "-": standard input
   std::vector<OutputRequest> outputs;
-  PatchSelection selection;
+  std::vector<MeshRequest> meshes;
   ReadOptions read;
+  bool repair = false;  ///< cut the surface apart where it is no manifold
+  SegmentOptions segment;
+  PatchSelection selection;
+  unsigned subdivisions = 0;  ///< steps of butterfly subdivision
+  SubdivisionOptions subdivide;
   BoundaryOptions boundary;
   FitOptions fit;
   RenderOptions render;
   WriteOptions write;
+  MeshWriteOptions mesh;
   bool timings_in_json = false;  ///< lists the stages' times in JSON outputs, whose bytes then change from run to run
 };
 
@@ -51,7 +66,7 @@ struct Run {
   Timings timings;
 };
 
-/// Reads, extracts, fits, draws and writes: the one place that knows the order of the stages and times them.
+/// Reads, cleans, segments, refines, extracts, fits, draws and writes: the one place that knows the order of the stages and times them.
 ///
 /// All outputs appear together once everything has succeeded, or none does.
 ///

@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "meshcontour/model.hpp"
 #include "meshcontour/sweep.hpp"
@@ -29,6 +31,9 @@ struct ReadOptions {
 /// @throws Error  NoInput if the file cannot be opened, BadData with file, line and element if it is wrong,
 ///                OutOfMemory if it asks for more than a limit.
 Model read_model(const std::filesystem::path& file, const ReadOptions& options = {});
+
+/// The extensions of all formats that can be read, lower case, without the dot.
+std::vector<std::string> readable_extensions();
 
 /// Reads a model from memory, e.g. standard input.
 ///

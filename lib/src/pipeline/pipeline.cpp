@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "meshcontour/cleaning.hpp"
 #include "meshcontour/output.hpp"
 #include "pipeline/selection.hpp"
 #include "write/png.hpp"
@@ -14,64 +15,88 @@ constexpr std::string_view extractor_name(Extractor extractor) {
   return extractor == Extractor::Sorted ? "sorted" : "halfedge";
 }
 
-Model read(const Job& job) {
-  if (job.input != "-") return read_model(job.input, job.read);
-  return read_model(std::filesystem::path("/dev/stdin"), job.read);
+// The outputs of a job, opened before any work is done.
+class Targets {
+ public:
+  explicit Targets(const Job& job) : job_(job) {
+    for (const OutputRequest& output : job.outputs) outputs_.push_back(&set_.open(output.path));
+    for (const MeshRequest& mesh : job.meshes) meshes_.push_back(&set_.open(mesh.path));
+  }
+
+  void write(Run& run, const std::vector<std::uint8_t>& png) {
+    Result result{run.model, run.boundaries, run.contours, extractor_name(job_.boundary.extractor), run.diagnostics};
+    if (job_.timings_in_json) result.timings = run.timings.stages();
+    std::vector<Diagnostic> notes;
+    for (std::size_t i = 0; i < outputs_.size(); ++i) {
+      if (job_.outputs[i].format == OutputFormat::Png) {
+        outputs_[i]->write({reinterpret_cast<const char*>(png.data()), png.size()});
+      } else {
+        write_output(job_.outputs[i].format, result, job_.write, *outputs_[i], notes);
+      }
+    }
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+      write_mesh(job_.meshes[i].format, run.model, job_.mesh, *meshes_[i], notes);
+    }
+    set_.commit();
+    std::ranges::move(notes, std::back_inserter(run.diagnostics));
+  }
+
+ private:
+  const Job& job_;
+  OutputSet set_;
+  std::vector<Sink*> outputs_, meshes_;
+};
+
+void prepare_model(const Job& job, Run& run) {
+  run.timings.measure("read", [&] {
+    run.model = read_model(job.input == "-" ? "/dev/stdin" : job.input, job.read);
+    if (job.repair) repair_model(run.model, job.segment.threads);
+  });
+  run.timings.count("read", counts_of(run.model, {}, {}).triangles);
+  run.timings.measure("segment", [&] {
+    segment_model(run.model, job.segment);
+    detail::keep_selection(run.model, job.selection);
+  });
+  if (job.subdivisions > 0) {
+    run.timings.measure("subdivide", [&] {
+      for (Shell& shell : run.model.shells) shell = subdivided(shell, job.subdivisions, job.subdivide);
+    });
+  }
+  const Counts counts = counts_of(run.model, {}, {});
+  run.timings.count("segment", counts.patches);
+  if (job.subdivisions > 0) run.timings.count("subdivide", counts.triangles);
+  run.diagnostics = std::move(run.model.diagnostics);
 }
 
-void take_diagnostics(std::vector<Diagnostic>& from, std::vector<Diagnostic>& to) {
-  std::ranges::move(from, std::back_inserter(to));
-  from.clear();
+void find_contours(const Job& job, Run& run) {
+  run.timings.measure("boundary",
+                      [&] { run.boundaries = extract_boundaries(run.model, job.boundary, run.diagnostics); });
+  run.timings.measure("fit",
+                      [&] { run.contours = fit_contours(run.model, run.boundaries, job.fit, run.diagnostics); });
+  const Counts counts = counts_of(run.model, run.boundaries, run.contours);
+  run.timings.count("boundary", counts.boundary_edges);
+  run.timings.count("fit", counts.loops + counts.open_chains);
 }
 
-bool asks_for(const Job& job, OutputFormat format) {
-  return std::ranges::any_of(job.outputs, [&](const OutputRequest& output) { return output.format == format; });
+std::vector<std::uint8_t> draw(const Job& job, Run& run) {
+  const auto is_picture = [](const OutputRequest& output) { return output.format == OutputFormat::Png; };
+  if (std::ranges::none_of(job.outputs, is_picture)) return {};
+  const Image image = run.timings.measure(
+      "render", [&] { return render(run.model, run.boundaries, run.contours, job.render, run.diagnostics); });
+  run.timings.count("render", counts_of(run.model, {}, {}).triangles);
+  return run.timings.measure("write", [&] { return encode_png(image); });
 }
 
 }  // namespace
 
 Run run(const Job& job) {
   Run run;
-  OutputSet outputs;
-  std::vector<Sink*> sinks;
-  for (const OutputRequest& output : job.outputs) sinks.push_back(&outputs.open(output.path));
-
-  Timings& timings = run.timings;
-  timings.measure("read", [&] {
-    run.model = read(job);
-    detail::keep_selection(run.model, job.selection);
-  });
-  take_diagnostics(run.model.diagnostics, run.diagnostics);
-  const Counts read_counts = counts_of(run.model, {}, {});
-  timings.count("read", read_counts.triangles);
-  timings.measure("boundary",
-                  [&] { run.boundaries = extract_boundaries(run.model, job.boundary, run.diagnostics); });
-  timings.measure("fit",
-                  [&] { run.contours = fit_contours(run.model, run.boundaries, job.fit, run.diagnostics); });
-  const Counts counts = counts_of(run.model, run.boundaries, run.contours);
-  timings.count("boundary", counts.boundary_edges);
-  timings.count("fit", counts.loops + counts.open_chains);
-
-  std::vector<std::uint8_t> png;
-  if (asks_for(job, OutputFormat::Png)) {
-    timings.measure("render", [&] {
-      png = encode_png(render(run.model, run.boundaries, run.contours, job.render, run.diagnostics));
-    });
-    timings.count("render", counts.triangles);
-  }
-  timings.measure("write", [&] {
-    for (std::size_t i = 0; i < sinks.size(); ++i) {
-      if (job.outputs[i].format == OutputFormat::Png) {
-        sinks[i]->write({reinterpret_cast<const char*>(png.data()), png.size()});
-        continue;
-      }
-      Result result{run.model, run.boundaries, run.contours, extractor_name(job.boundary.extractor), run.diagnostics};
-      if (job.timings_in_json) result.timings = timings.stages();
-      write_output(job.outputs[i].format, result, job.write, *sinks[i], run.diagnostics);
-    }
-    outputs.commit();
-  });
-  timings.count("write", job.outputs.size());
+  Targets targets(job);
+  prepare_model(job, run);
+  find_contours(job, run);
+  const std::vector<std::uint8_t> png = draw(job, run);
+  run.timings.measure("write", [&] { targets.write(run, png); });
+  run.timings.count("write", job.outputs.size() + job.meshes.size());
   return run;
 }
 

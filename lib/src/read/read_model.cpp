@@ -25,6 +25,12 @@ Model checked(Model model, const ReadContext& context) {
 
 }  // namespace
 
+std::vector<std::string> readable_extensions() {
+  std::vector<std::string> out;
+  for (const Format& format : formats()) out.insert(out.end(), format.extensions.begin(), format.extensions.end());
+  return out;
+}
+
 Model read_model(const std::filesystem::path& file, const ReadOptions& options) {
   InputFile input(file);
   const Format& format = detect_format(input.head(), input.size(), input.name(), formats());
