@@ -53,6 +53,7 @@ struct RenderOptions {
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba;
+  bool blank = false;  ///< nothing was drawn that differs from the background
 };
 
 /// Draws a model off screen with a software rasterizer, no display needed. Loads the rasterizer on first use.

@@ -12,7 +12,7 @@ constexpr double kMaxChords = 1024;
 
 }  // namespace
 
-BezierCurve to_bezier(const BSplineCurve& curve) {
+BezierCurve to_bezier(const BSplineCurve& curve, const Point& center, double size) {
   BezierCurve result;
   const auto degree = static_cast<std::size_t>(curve.degree);
   result.degree = curve.degree;
@@ -25,7 +25,19 @@ BezierCurve to_bezier(const BSplineCurve& curve) {
           blossom(curve, span, [&](int argument) { return argument <= curve.degree - k ? begin : end; }));
     }
   }
+  for (Eigen::Vector4d& p : result.control) p.head<3>() = (p.head<3>() - p.w() * center) / size;
   return result;
+}
+
+std::vector<float> packed_control(const BezierCurve& curve, std::size_t first, std::size_t pieces) {
+  const auto degree = static_cast<std::size_t>(curve.degree);
+  std::vector<float> packed;
+  packed.reserve((pieces * degree + 1) * (curve.rational ? 4 : 3));
+  for (std::size_t i = first * degree; i <= (first + pieces) * degree; ++i) {
+    const Eigen::Vector4f p = curve.control[i].cast<float>();
+    packed.insert(packed.end(), p.data(), p.data() + (curve.rational ? 4 : 3));
+  }
+  return packed;
 }
 
 int chords(const BezierCurve& curve, std::size_t piece, double tolerance) {

@@ -17,9 +17,13 @@ struct BezierCurve {
   }
 };
 
-/// The pieces of a B-spline, one a knot span that is not empty, exact: their control points are values of the
-/// span's polar form [Ramshaw 1989], so that any knots will do, clamped or not.
-BezierCurve to_bezier(const BSplineCurve& curve);
+/// The pieces of a B-spline, one a knot span that is not empty, with (p - center) / size for its points p.
+/// Exact: their control points are values of the span's polar form [Ramshaw 1989], so that any knots will do,
+/// clamped or not.
+BezierCurve to_bezier(const BSplineCurve& curve, const Point& center, double size);
+
+/// The control points of pieces in one row: 3 floats a point, or 4 (w x, w y, w z, w) if rational.
+std::vector<float> packed_control(const BezierCurve& curve, std::size_t first, std::size_t pieces);
 
 /// Chords that keep within `tolerance` of a piece, from its second differences [Wang 1984]; for rational
 /// pieces the differences of the projected points, times the square of the ratio of the weights. 1 to 1024.

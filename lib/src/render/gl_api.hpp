@@ -24,6 +24,7 @@ struct GlOutcome {
 
   Status status = Status::Done;
   std::string message;
+  bool blank = false;  ///< every sample has the background's colour
 };
 
 struct GlSettings {
@@ -47,8 +48,9 @@ using NurbsStrip = std::vector<std::array<float, 3>>;
 struct GlApi {
   int version;
 
-  /// Makes the context on first use, draws the scene and reads it back.
-  GlOutcome (*draw)(const Scene& scene, const GlSettings& settings, Image& image);
+  /// Makes the context on first use, draws the scene and reads it back. Chords of curves are appended to the
+  /// scene's vertices: once drawn, it is used up.
+  GlOutcome (*draw)(Scene& scene, const GlSettings& settings, Image& image);
 
   /// What gluNurbsCurve makes of a curve, one strip a knot span. Needs no context.
   GlOutcome (*tessellate)(const NurbsCurve& curve, std::vector<NurbsStrip>& strips);

@@ -20,33 +20,32 @@ struct Tile {
   int full_height() const { return height + 2 * margin; }
 };
 
-using Lines = std::vector<FlatVertex>;
+struct Range {
+  std::size_t first = 0, count = 0;
+};
 
-// Chords of a batch's curves. One knot unit a piece, so that no two knots are too close for GLU however the
-// curve is parametrized, and a piece is a Bezier curve, so that runs need no overlap but a point.
-Lines curve_lines(const Batch& batch, NurbsTessellator& tessellator) {
-  Lines lines;
-  std::vector<float> knots;
+// Appends the chords of a batch's curves to the vertices.
+Range add_chords(const Batch& batch, NurbsTessellator& tessellator, std::vector<Vertex>& vertices) {
+  const std::size_t first = vertices.size();
   for (const CurveRun& run : batch.runs) {
     const auto degree = static_cast<std::size_t>(run.degree);
-    knots.assign(1, 0.0F);
-    for (std::size_t i = 0; i <= run.pieces; ++i) knots.insert(knots.end(), degree, static_cast<float>(i));
-    knots.push_back(static_cast<float>(run.pieces));
+    const std::vector<float> knots = bezier_knots(run.pieces, run.degree);
     const std::size_t floats = (run.pieces * degree + 1) * (run.rational ? 4 : 3);
-    tessellator.tessellate({run.degree + 1, run.rational, knots,
-                            std::span(batch.control).subspan(run.first, floats),
-                            static_cast<float>(run.samples) - 0.5F});
+    // GLU takes one chord more than the whole number below what it is told.
+    const float samples = static_cast<float>(run.samples) - 0.5F;
+    tessellator.tessellate(
+        {run.degree + 1, run.rational, knots, std::span(batch.control).subspan(run.first, floats), samples});
     const auto& points = tessellator.points();
     const auto& starts = tessellator.starts();
     for (std::size_t strip = 0; strip < starts.size(); ++strip) {
       const std::size_t end = strip + 1 < starts.size() ? starts[strip + 1] : points.size();
       for (std::size_t i = starts[strip]; i + 1 < end; ++i) {
-        lines.push_back({points[i], run.color});
-        lines.push_back({points[i + 1], run.color});
+        vertices.push_back({.position = points[i], .color = run.color});
+        vertices.push_back({.position = points[i + 1], .color = run.color});
       }
     }
   }
-  return lines;
+  return {first, vertices.size() - first};
 }
 
 // Clip coordinates of the whole picture to those of a tile.
@@ -60,67 +59,72 @@ Eigen::Matrix4d tile_projection(const Scene& scene, const Tile& tile) {
   return to_tile * scene.projection;
 }
 
-// A light over the viewer's left shoulder, both sides of a face lit, colours from the vertices.
-void set_lighting() {
-  constexpr std::array<GLfloat, 4> direction = {-0.35F, 0.45F, 1.0F, 0.0F};
-  constexpr std::array<GLfloat, 4> diffuse = {0.72F, 0.72F, 0.72F, 1};
-  constexpr std::array<GLfloat, 4> ambient = {0.30F, 0.30F, 0.30F, 1};
+void set_state(const Scene& scene) {
+  const Vertex* vertices = scene.vertices.data();
+  glEnableClientState(GL_VERTEX_ARRAY);
+  glEnableClientState(GL_NORMAL_ARRAY);
+  glEnableClientState(GL_COLOR_ARRAY);
+  glVertexPointer(3, GL_FLOAT, sizeof(Vertex), &vertices->position);
+  glNormalPointer(GL_SHORT, sizeof(Vertex), &vertices->normal);
+  glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Vertex), &vertices->color);
+  constexpr std::array<GLfloat, 4> direction = {-0.25F, 0.35F, 1.0F,
+                                                0.0F};  // over the viewer's left shoulder
   constexpr std::array<GLfloat, 4> none = {0, 0, 0, 1};
   glMatrixMode(GL_MODELVIEW);
   glLoadIdentity();
   glLightfv(GL_LIGHT0, GL_POSITION, direction.data());
-  glLightfv(GL_LIGHT0, GL_DIFFUSE, diffuse.data());
   glLightfv(GL_LIGHT0, GL_AMBIENT, none.data());
   glLightfv(GL_LIGHT0, GL_SPECULAR, none.data());
-  glLightModelfv(GL_LIGHT_MODEL_AMBIENT, ambient.data());
   glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, GL_TRUE);
   glColorMaterial(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE);
-  glEnable(GL_COLOR_MATERIAL);
-  glEnable(GL_LIGHT0);
-  glEnable(GL_NORMALIZE);
+  for (const GLenum what :
+       {GL_COLOR_MATERIAL, GL_LIGHTING, GL_LIGHT0, GL_NORMALIZE, GL_DEPTH_TEST, GL_POLYGON_OFFSET_FILL})
+    glEnable(what);
+  glDepthFunc(GL_LEQUAL);
 }
 
-void draw_placed(const std::vector<Placement>& placements, double bias, GLenum mode, std::size_t count) {
+// Lines and points go through the same shaders as faces, under a light that gives them their own colour.
+void set_light(bool lit) {
+  const GLfloat ambient = lit ? 0.36F : 1.0F, diffuse = lit ? 0.64F : 0.0F;
+  glLightModelfv(GL_LIGHT_MODEL_AMBIENT, std::array{ambient, ambient, ambient, 1.0F}.data());
+  glLightfv(GL_LIGHT0, GL_DIFFUSE, std::array{diffuse, diffuse, diffuse, 1.0F}.data());
+}
+
+void draw_range(const Range& range, const std::vector<Placement>& placements, double bias, GLenum mode) {
   glMatrixMode(GL_MODELVIEW);
   for (const Placement& placement : placements) {
     Eigen::Matrix4d to_eye = placement.to_eye;
     to_eye(2, 3) += bias;
     glLoadMatrixd(to_eye.data());
     glFrontFace(placement.mirrored ? GL_CW : GL_CCW);
-    // The count is an int: very large batches go in parts that hold whole triangles and lines.
+    // Large ranges go in parts, which hold whole triangles and lines: counts are ints.
     constexpr std::size_t kPart = 6 << 24;
-    for (std::size_t first = 0; first < count; first += kPart) {
-      glDrawArrays(mode, static_cast<GLint>(first), static_cast<GLsizei>(std::min(kPart, count - first)));
+    for (std::size_t done = 0; done < range.count; done += kPart) {
+      glDrawArrays(mode, static_cast<GLint>(range.first + done),
+                   static_cast<GLsizei>(std::min(kPart, range.count - done)));
     }
   }
 }
 
-void draw_triangles(const Batch& batch, const std::vector<Placement>& placements) {
-  const LitVertex* corners = batch.corners.data();
-  glEnableClientState(GL_NORMAL_ARRAY);
-  glVertexPointer(3, GL_FLOAT, sizeof(LitVertex), &corners->position);
-  glNormalPointer(GL_SHORT, sizeof(LitVertex), &corners->normal);
-  glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(LitVertex), &corners->color);
-  glEnable(GL_LIGHTING);
-  glEnable(GL_POLYGON_OFFSET_FILL);
-  draw_placed(placements, batch.bias, GL_TRIANGLES, batch.corners.size());
-  glDisable(GL_POLYGON_OFFSET_FILL);
-  glDisable(GL_LIGHTING);
-  glDisableClientState(GL_NORMAL_ARRAY);
-}
-
-void draw_flat(const Batch& batch, const std::vector<Placement>& placements,
-               const std::vector<FlatVertex>& vertices) {
-  if (vertices.empty()) return;
-  const bool points = batch.kind == Batch::Kind::Points;
-  glVertexPointer(3, GL_FLOAT, sizeof(FlatVertex), &vertices.data()->position);
-  glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(FlatVertex), &vertices.data()->color);
-  if (points) {
-    glPointSize(2 * batch.size);
-  } else {
-    glLineWidth(2 * batch.size);
+void draw_batch(const Scene& scene, const Batch& batch, const Range& chords) {
+  const auto& placements = scene.frames[batch.frame];
+  const Range range{batch.first, batch.count};
+  set_light(batch.kind == Batch::Kind::Triangles);
+  switch (batch.kind) {
+    case Batch::Kind::Triangles:
+      draw_range(range, placements, batch.bias, GL_TRIANGLES);
+      break;
+    case Batch::Kind::Lines:
+      glLineWidth(2 * batch.size);
+      draw_range(range, placements, batch.bias, GL_LINES);
+      draw_range(chords, placements, batch.bias, GL_LINES);
+      break;
+    case Batch::Kind::Points:
+      // Square: after GL_POINT_SMOOTH llvmpipe forgets the polygon offset.
+      glPointSize(2 * batch.size);
+      draw_range(range, placements, batch.bias, GL_POINTS);
+      break;
   }
-  draw_placed(placements, batch.bias, points ? GL_POINTS : GL_LINES, vertices.size());
 }
 
 // Half the widest line: a line as wide as that lies in front of the faces that meet in it, however steep they
@@ -133,34 +137,29 @@ float widest(const Scene& scene) {
   return size;
 }
 
-void draw_tile(const Scene& scene, const Tile& tile, const std::vector<Lines>& curves) {
+void draw_tile(const Scene& scene, const Tile& tile, const std::vector<Range>& chords) {
   glViewport(0, 0, tile.full_width(), tile.full_height());
   glMatrixMode(GL_PROJECTION);
-  glLoadMatrixd(tile_projection(scene, tile).eval().data());
-  set_lighting();
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
+  glLoadMatrixd(tile_projection(scene, tile).data());
   glPolygonOffset(1 + widest(scene), 1);
   const auto& color = scene.background;
   glClearColor(static_cast<GLfloat>(color[0]), static_cast<GLfloat>(color[1]), static_cast<GLfloat>(color[2]),
                static_cast<GLfloat>(color[3]));
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  glEnableClientState(GL_VERTEX_ARRAY);
-  glEnableClientState(GL_COLOR_ARRAY);
-  for (std::size_t i = 0; i < scene.batches.size(); ++i) {
-    const Batch& batch = scene.batches[i];
-    const auto& placements = scene.frames[batch.frame];
-    if (batch.kind == Batch::Kind::Triangles) {
-      if (!batch.corners.empty()) draw_triangles(batch, placements);
-    } else {
-      draw_flat(batch, placements, batch.vertices);
-      draw_flat(batch, placements, curves[i]);
-    }
-  }
-  glDisableClientState(GL_COLOR_ARRAY);
-  glDisableClientState(GL_VERTEX_ARRAY);
+  for (std::size_t i = 0; i < scene.batches.size(); ++i) draw_batch(scene, scene.batches[i], chords[i]);
   glFinish();
   check_gl("drawing");
+}
+
+// The last picture's framebuffer serves the next of its size: most of a small picture's time goes into fresh
+// pages.
+void bind_framebuffer(int width, int height) {
+  static std::unique_ptr<Framebuffer>& last = *new std::unique_ptr<Framebuffer>;  // outlives the rasterizer
+  if (last == nullptr || last->width() != width || last->height() != height) {
+    last.reset();
+    last = std::make_unique<Framebuffer>(width, height);
+  }
+  last->bind();
 }
 
 }  // namespace
@@ -180,27 +179,30 @@ void test_context() {
   }
 }
 
-void draw_scene(const Scene& scene, int largest_tile, NurbsTessellator& tessellator, Image& image) {
-  std::vector<Lines> curves;
-  for (const Batch& batch : scene.batches) curves.push_back(curve_lines(batch, tessellator));
+bool draw_scene(Scene& scene, int largest_tile, NurbsTessellator& tessellator, Image& image) {
+  std::vector<Range> chords;
+  for (const Batch& batch : scene.batches) chords.push_back(add_chords(batch, tessellator, scene.vertices));
   image.width = scene.width;
   image.height = scene.height;
   image.rgba.assign(4 * static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height), 0);
 
   const int whole = std::max(2 * scene.width, 2 * scene.height);
-  const int reach = 2 * static_cast<int>(std::ceil(widest(scene))) + 2;
-  const int margin = whole <= largest_tile ? 0 : reach;
-  const int side = std::min({whole, largest_tile, kLargestFramebuffer}) - 2 * margin;
-  const int even_side = side - side % 2;
-  const int width = std::min(even_side, 2 * scene.width), height = std::min(even_side, 2 * scene.height);
-  const Framebuffer framebuffer(width + 2 * margin, height + 2 * margin);
+  const int limit = std::min(largest_tile, kLargestFramebuffer);
+  const int margin = whole <= limit ? 0 : 2 * static_cast<int>(std::ceil(widest(scene))) + 2;
+  const int side = std::min(whole, limit) - 2 * margin;
+  const int width = std::min(side - side % 2, 2 * scene.width);
+  const int height = std::min(side - side % 2, 2 * scene.height);
+  bind_framebuffer(width + 2 * margin, height + 2 * margin);
+  set_state(scene);
+  bool something = false;
   for (int bottom = 0; bottom < 2 * scene.height; bottom += height) {
     for (int left = 0; left < 2 * scene.width; left += width) {
-      const Tile tile{left, bottom, width, height, margin};
-      draw_tile(scene, tile, curves);
-      average_into(image, {left / 2, bottom / 2, width / 2, height / 2, margin});
+      draw_tile(scene, {left, bottom, width, height, margin}, chords);
+      const Readback part{left / 2, bottom / 2, width / 2, height / 2, margin, scene.background};
+      something = average_into(image, part) || something;
     }
   }
+  return something;
 }
 
 }  // namespace meshcontour::detail

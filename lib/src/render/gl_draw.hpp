@@ -24,7 +24,8 @@ void test_context();
 
 /// Draws at twice the size, in tiles where that is larger than `largest_tile`, and averages.
 ///
+/// @return false if every sample has the background's colour.
 /// @throws GlOutOfMemory, GlFailure, NurbsFailure
-void draw_scene(const Scene& scene, int largest_tile, NurbsTessellator& tessellator, Image& image);
+bool draw_scene(Scene& scene, int largest_tile, NurbsTessellator& tessellator, Image& image);
 
 }  // namespace meshcontour::detail

@@ -53,8 +53,9 @@ GlOutcome guarded(const Work& work) {
   }
 }
 
-GlOutcome draw(const Scene& scene, const GlSettings& settings, Image& image) {
-  return guarded([&] {
+GlOutcome draw(Scene& scene, const GlSettings& settings, Image& image) {
+  bool something = false;
+  GlOutcome outcome = guarded([&] {
     const Current current(context(settings));
     try {
       test_context();
@@ -62,8 +63,10 @@ GlOutcome draw(const Scene& scene, const GlSettings& settings, Image& image) {
       throw NoContext(failure.what());
     }
     NurbsTessellator tessellator;
-    draw_scene(scene, settings.largest_tile, tessellator, image);
+    something = draw_scene(scene, settings.largest_tile, tessellator, image);
   });
+  outcome.blank = !something;
+  return outcome;
 }
 
 GlOutcome tessellate(const NurbsCurve& curve, std::vector<NurbsStrip>& strips) {

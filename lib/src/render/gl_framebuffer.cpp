@@ -16,7 +16,7 @@ void check_gl(const char* what) {
   throw GlFailure(std::string("OpenGL error ") + std::to_string(error) + ": " + what);
 }
 
-Framebuffer::Framebuffer(int width, int height) {
+Framebuffer::Framebuffer(int width, int height) : width_(width), height_(height) {
   glGenFramebuffers(1, &framebuffer_);
   glGenRenderbuffers(1, &color_);
   glGenRenderbuffers(1, &depth_);
@@ -24,7 +24,7 @@ Framebuffer::Framebuffer(int width, int height) {
   glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
   glBindRenderbuffer(GL_RENDERBUFFER, depth_);
   glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+  bind();
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color_);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
   try {

@@ -6,7 +6,7 @@
 
 namespace meshcontour::detail {
 
-/// A framebuffer object with 8 bits a channel and 24 bits of depth, bound while it lives.
+/// A framebuffer object with 8 bits a channel and 24 bits of depth, bound when made.
 class Framebuffer {
  public:
   /// @throws GlOutOfMemory, GlFailure  if it is not complete.
@@ -15,9 +15,14 @@ class Framebuffer {
   Framebuffer& operator=(const Framebuffer&) = delete;
   ~Framebuffer();
 
+  int width() const { return width_; }
+  int height() const { return height_; }
+  void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_); }
+
  private:
   void destroy();
 
+  int width_, height_;
   GLuint framebuffer_ = 0, color_ = 0, depth_ = 0;
 };
 

@@ -1,6 +1,8 @@
 #include "render/gl_readback.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 #include "render/gl_framebuffer.hpp"
 
@@ -28,19 +30,33 @@ void divide_by_alpha(std::uint8_t* row, std::size_t pixels) {
   }
 }
 
+// Samples may round by a level.
+bool differs(const std::vector<std::uint8_t>& samples, std::size_t size,
+             const std::array<double, 4>& background) {
+  std::array<int, 4> level{};
+  for (std::size_t c = 0; c < 4; ++c) level[c] = static_cast<int>(std::lround(255 * background[c]));
+  for (std::size_t i = 0; i < size; ++i) {
+    if (std::abs(samples[i] - level[i % 4]) > 1) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
-void average_into(Image& image, const Readback& part) {
+bool average_into(Image& image, const Readback& part) {
   const int columns = std::min(part.width, image.width - part.left);
   const int rows = std::min(part.height, image.height - part.bottom);
   constexpr int kBand = 64;  // pixel rows at a time: the samples stay in the cache
   const auto pixels = static_cast<std::size_t>(columns);
   const std::size_t sample_row = 8 * pixels;
   std::vector<std::uint8_t> samples(sample_row * 2 * kBand);
+  bool something = false;
   for (int first = 0; first < rows; first += kBand) {
     const int count = std::min(kBand, rows - first);
     glReadPixels(part.margin, part.margin + 2 * first, 2 * columns, 2 * count, GL_RGBA, GL_UNSIGNED_BYTE,
                  samples.data());
+    something =
+        something || differs(samples, 2 * static_cast<std::size_t>(count) * sample_row, part.background);
     for (int row = 0; row < count; ++row) {
       const int from_top = image.height - 1 - (part.bottom + first + row);
       std::uint8_t* out = image.rgba.data() +
@@ -52,6 +68,7 @@ void average_into(Image& image, const Readback& part) {
     }
   }
   check_gl("reading the picture back");
+  return something;
 }
 
 }  // namespace meshcontour::detail

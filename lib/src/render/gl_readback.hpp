@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "meshcontour/render.hpp"
 
 namespace meshcontour::detail {
@@ -8,10 +10,13 @@ namespace meshcontour::detail {
 /// corner, in pixels; `margin` samples of the framebuffer around them are not used.
 struct Readback {
   int left, bottom, width, height, margin;
+  std::array<double, 4> background;  ///< colour times alpha
 };
 
 /// Averages 2 x 2 samples of the bound framebuffer to a pixel each, and turns colour times alpha to straight
 /// alpha. Pixels beyond the picture's right and upper end are left out.
-void average_into(Image& image, const Readback& part);
+///
+/// @return  whether a sample differs from the background.
+bool average_into(Image& image, const Readback& part);
 
 }  // namespace meshcontour::detail

@@ -13,10 +13,6 @@ namespace {
 constexpr std::size_t kGrain = 8192;
 constexpr Rgba kWhite{255, 255, 255, 255}, kBlack{0, 0, 0, 255};
 
-bool placed(const Drawing& drawing, std::size_t frame) {
-  return drawing.magnification[frame] > 0;
-}
-
 Rgba face_color(const Drawing& drawing, std::size_t shell, std::size_t patch) {
   switch (drawing.options.color_by) {
     case ColorBy::Patch:
@@ -33,8 +29,7 @@ Rgba face_color(const Drawing& drawing, std::size_t shell, std::size_t patch) {
   }
 }
 
-LitVertex lit_vertex(const LocalFrame& frame, const Point& p, const Eigen::Vector3f& normal,
-                     const Rgba& color) {
+Vertex lit_vertex(const LocalFrame& frame, const Point& p, const Eigen::Vector3f& normal, const Rgba& color) {
   const Eigen::Vector3f local = frame.local(p);
   const auto fixed = [&](int i) {
     return static_cast<std::int16_t>(std::lround(32767 * std::clamp(normal[i], -1.F, 1.F)));
@@ -42,28 +37,35 @@ LitVertex lit_vertex(const LocalFrame& frame, const Point& p, const Eigen::Vecto
   return {{local.x(), local.y(), local.z()}, {fixed(0), fixed(1), fixed(2), 0}, color};
 }
 
+void fill_triangles(const Drawing& drawing, std::size_t s, Vertex* corners) {
+  const Shell& shell = drawing.model.shells[s];
+  const auto normals = lighting_normals(shell, drawing.options.threads);
+  for (std::size_t p = 0; p < shell.patches.size(); ++p) {
+    const Rgba color = face_color(drawing, s, p);
+    const Patch& patch = shell.patches[p];
+    parallel_for(patch.triangle_count, kGrain, drawing.options.threads,
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t t = patch.first_triangle + begin; t < patch.first_triangle + end; ++t) {
+                     for (std::size_t c = 0; c < 3; ++c) {
+                       const Point& corner = shell.points[shell.triangles[t][c]];
+                       corners[3 * t + c] = lit_vertex(drawing.frames[s], corner, normals[3 * t + c], color);
+                     }
+                   }
+                 });
+  }
+}
+
 void add_mesh(const Drawing& drawing, Scene& scene) {
   for (std::size_t s = 0; s < drawing.model.shells.size(); ++s) {
-    const Shell& shell = drawing.model.shells[s];
-    if (!placed(drawing, s) || shell.triangles.empty()) continue;
+    const std::size_t triangles = drawing.model.shells[s].triangles.size();
+    if (!placed(drawing, s) || triangles == 0) continue;
     Batch batch = make_batch(drawing, Batch::Kind::Triangles, s, 0);
     batch.bias = 0;
-    batch.corners.resize(3 * shell.triangles.size());
-    const auto normals = lighting_normals(shell, drawing.options.threads);
-    for (std::size_t p = 0; p < shell.patches.size(); ++p) {
-      const Rgba color = face_color(drawing, s, p);
-      const Patch& patch = shell.patches[p];
-      parallel_for(
-          patch.triangle_count, kGrain, drawing.options.threads, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t t = patch.first_triangle + begin; t < patch.first_triangle + end; ++t) {
-              for (std::size_t c = 0; c < 3; ++c) {
-                const Point& corner = shell.points[shell.triangles[t][c]];
-                batch.corners[3 * t + c] = lit_vertex(drawing.frames[s], corner, normals[3 * t + c], color);
-              }
-            }
-          });
-    }
-    append(scene, std::move(batch));
+    batch.first = scene.vertices.size();
+    batch.count = 3 * triangles;
+    scene.vertices.resize(batch.first + batch.count);
+    fill_triangles(drawing, s, scene.vertices.data() + batch.first);
+    scene.batches.push_back(std::move(batch));
   }
 }
 
@@ -78,9 +80,9 @@ void make_unique(std::vector<Edge>& edges) {
 }
 
 void add_edge_lines(const Shell& shell, const LocalFrame& frame, const std::vector<Edge>& edges,
-                    const Rgba& color, Batch& batch) {
+                    const Rgba& color, std::vector<Vertex>& vertices) {
   for (const Edge& edge : edges) {
-    for (const Index v : edge) batch.vertices.push_back(flat_vertex(frame, shell.points[v], color));
+    for (const Index v : edge) vertices.push_back(flat_vertex(frame, shell.points[v], color));
   }
 }
 
@@ -90,19 +92,19 @@ void add_edges(const Drawing& drawing, Scene& scene) {
   for (std::size_t s = 0; s < drawing.boundaries.size(); ++s) {
     if (!placed(drawing, s)) continue;
     const Shell& shell = drawing.model.shells[s];
-    Batch batch = make_batch(drawing, Batch::Kind::Lines, s, 1.2F);
+    std::vector<Vertex> vertices;
     std::vector<Edge> edges;
     const auto& patches = drawing.boundaries[s].patches;
     for (std::size_t p = 0; p < patches.size(); ++p) {
       for (const BoundaryEdge& edge : patches[p].edges) edges.push_back({edge.from, edge.to});
       if (by_patch) {
-        add_edge_lines(shell, drawing.frames[s], edges, patch_line_color(drawing, s, p), batch);
+        add_edge_lines(shell, drawing.frames[s], edges, patch_line_color(drawing, s, p), vertices);
         edges.clear();
       }
     }
     make_unique(edges);
-    add_edge_lines(shell, drawing.frames[s], edges, drawing.palette.edges, batch);
-    append(scene, std::move(batch));
+    add_edge_lines(shell, drawing.frames[s], edges, drawing.palette.edges, vertices);
+    append(scene, make_batch(drawing, Batch::Kind::Lines, s, 1.2F), vertices);
   }
 }
 
@@ -119,13 +121,13 @@ void add_wireframe(const Drawing& drawing, Scene& scene) {
         make_unique(edges[p]);
       }
     });
-    Batch batch = make_batch(drawing, Batch::Kind::Lines, s, 0.8F);
+    std::vector<Vertex> vertices;
     const bool by_patch = drawing.options.color_by == ColorBy::Patch;
     for (std::size_t p = 0; p < edges.size(); ++p) {
       const Rgba color = by_patch ? patch_line_color(drawing, s, p) : drawing.palette.wireframe;
-      add_edge_lines(shell, drawing.frames[s], edges[p], color, batch);
+      add_edge_lines(shell, drawing.frames[s], edges[p], color, vertices);
     }
-    append(scene, std::move(batch));
+    append(scene, make_batch(drawing, Batch::Kind::Lines, s, 0.8F), vertices);
   }
 }
 
@@ -134,32 +136,31 @@ void add_points(const Drawing& drawing, Scene& scene) {
     if (!placed(drawing, s)) continue;
     const Shell& shell = drawing.model.shells[s];
     std::vector<bool> done(shell.points.size(), false);
-    Batch batch = make_batch(drawing, Batch::Kind::Points, s, 5);
+    std::vector<Vertex> vertices;
     for (const PatchBoundary& patch : drawing.boundaries[s].patches) {
       for (const BoundaryEdge& edge : patch.edges) {
         for (const Index v : {edge.from, edge.to}) {
           if (done[v]) continue;
           done[v] = true;
-          batch.vertices.push_back(flat_vertex(drawing.frames[s], shell.points[v], drawing.palette.points));
+          vertices.push_back(flat_vertex(drawing.frames[s], shell.points[v], drawing.palette.points));
         }
       }
     }
-    append(scene, std::move(batch));
+    append(scene, make_batch(drawing, Batch::Kind::Points, s, 4), vertices);
   }
 }
 
 void add_annotations(const Drawing& drawing, Scene& scene) {
   const std::size_t frame = drawing.frames.size() - 1;
-  Batch batch = make_batch(drawing, Batch::Kind::Lines, frame, 1.4F);
+  std::vector<Vertex> vertices;
   for (const Polyline& line : drawing.model.annotations) {
     for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
       for (const std::size_t end : {i, i + 1}) {
-        batch.vertices.push_back(
-            flat_vertex(drawing.frames[frame], line.points[end], drawing.palette.annotations));
+        vertices.push_back(flat_vertex(drawing.frames[frame], line.points[end], drawing.palette.annotations));
       }
     }
   }
-  append(scene, std::move(batch));
+  append(scene, make_batch(drawing, Batch::Kind::Lines, frame, 1.4F), vertices);
 }
 
 struct LayerRow {
@@ -167,13 +168,19 @@ struct LayerRow {
   void (*add)(const Drawing&, Scene&);
 };
 
-constexpr std::array<LayerRow, 5> kLayers = {{{Layer::Mesh, add_mesh},
+constexpr std::array<LayerRow, 7> kLayers = {{{Layer::Mesh, add_mesh},
                                               {Layer::Edges, add_edges},
+                                              {Layer::Curves, add_curves},
+                                              {Layer::Control, add_control},
                                               {Layer::Wireframe, add_wireframe},
                                               {Layer::Points, add_points},
                                               {Layer::Annotations, add_annotations}}};
 
 }  // namespace
+
+bool placed(const Drawing& drawing, std::size_t frame) {
+  return frame < drawing.magnification.size() && drawing.magnification[frame] > 0;
+}
 
 Batch make_batch(const Drawing& drawing, Batch::Kind kind, std::size_t frame, float size) {
   Batch batch;
@@ -184,15 +191,17 @@ Batch make_batch(const Drawing& drawing, Batch::Kind kind, std::size_t frame, fl
   return batch;
 }
 
-void append(Scene& scene, Batch&& batch) {
-  if (!batch.corners.empty() || !batch.vertices.empty() || !batch.runs.empty()) {
-    scene.batches.push_back(std::move(batch));
-  }
+void append(Scene& scene, Batch&& batch, const std::vector<Vertex>& vertices) {
+  if (vertices.empty() && batch.runs.empty()) return;
+  batch.first = scene.vertices.size();
+  batch.count = vertices.size();
+  scene.vertices.insert(scene.vertices.end(), vertices.begin(), vertices.end());
+  scene.batches.push_back(std::move(batch));
 }
 
-FlatVertex flat_vertex(const LocalFrame& frame, const Point& p, const Rgba& color) {
+Vertex flat_vertex(const LocalFrame& frame, const Point& p, const Rgba& color) {
   const Eigen::Vector3f local = frame.local(p);
-  return {{local.x(), local.y(), local.z()}, color};
+  return {.position = {local.x(), local.y(), local.z()}, .color = color};
 }
 
 Rgba patch_line_color(const Drawing& drawing, std::size_t shell, std::size_t patch) {

@@ -18,11 +18,11 @@ struct Drawing {
   const RenderOptions& options;
   Camera camera;
   Palette palette;
-  std::vector<LocalFrame> frames;
-  std::vector<double> magnification;     ///< of the largest placement of each frame; 0 when it has none
-  std::vector<std::size_t> first_patch;  ///< number of a shell's first patch over the whole model
-  float line_scale = 1;                  ///< larger pictures have wider lines
-  double bias = 0;                       ///< of the layer that is being added: later layers lie in front
+  std::vector<LocalFrame> frames{};
+  std::vector<double> magnification{};     ///< of the largest placement of each frame; 0 when it has none
+  std::vector<std::size_t> first_patch{};  ///< number of a shell's first patch over the whole model
+  float line_scale = 1;                    ///< larger pictures have wider lines
+  double bias = 0;                         ///< of the layer that is being added: later layers lie in front
 };
 
 /// Appends the batches of a layer.
@@ -32,14 +32,17 @@ void add_layer(const Drawing& drawing, Layer layer, Scene& scene);
 void add_curves(const Drawing& drawing, Scene& scene);
 void add_control(const Drawing& drawing, Scene& scene);
 
+/// Whether the frame occurs in the picture.
+bool placed(const Drawing& drawing, std::size_t frame);
+
 /// A batch of lines or points of one frame.
 Batch make_batch(const Drawing& drawing, Batch::Kind kind, std::size_t frame, float size);
 
-/// Appends the batch if there is something in it.
-void append(Scene& scene, Batch&& batch);
+/// Appends the batch and its vertices if there is something to draw.
+void append(Scene& scene, Batch&& batch, const std::vector<Vertex>& vertices);
 
 /// A point of a frame as a vertex.
-FlatVertex flat_vertex(const LocalFrame& frame, const Point& p, const Rgba& color);
+Vertex flat_vertex(const LocalFrame& frame, const Point& p, const Rgba& color);
 
 /// The colour of a patch's own lines, dark enough beside its faces.
 Rgba patch_line_color(const Drawing& drawing, std::size_t shell, std::size_t patch);

@@ -13,16 +13,13 @@
 
 namespace meshcontour::detail {
 
-/// A corner of a lit triangle. Positions are in a frame of the shell's own, centred and scaled to [-1, 1].
-struct LitVertex {
+/// A corner of a triangle, an end of a line or a point. One layout for all, in one array: another layout or
+/// array would have the rasterizer compile further shaders, which costs more than drawing a small model.
+/// Positions are in a frame of the shell's own, centred and scaled to [-1, 1].
+struct Vertex {
   std::array<float, 3> position;
-  std::array<std::int16_t, 4> normal;  ///< times 32767; the fourth only fills
-  Rgba color;
-};
-
-/// A vertex of a line or a point.
-struct FlatVertex {
-  std::array<float, 3> position;
+  std::array<std::int16_t, 4> normal{0, 0, 32767,
+                                     0};  ///< times 32767; the fourth only fills; lines need none
   Rgba color;
 };
 
@@ -37,6 +34,17 @@ struct CurveRun {
   Rgba color;
 };
 
+/// Knots 0, 1, 2, ... of consecutive Bezier pieces. No two are too close for GLU however the curve is
+/// parametrized, and runs of pieces need not overlap.
+inline std::vector<float> bezier_knots(std::size_t pieces, int degree) {
+  std::vector<float> knots(1, 0.0F);
+  for (std::size_t i = 0; i <= pieces; ++i) {
+    knots.insert(knots.end(), static_cast<std::size_t>(degree), static_cast<float>(i));
+  }
+  knots.push_back(static_cast<float>(pieces));
+  return knots;
+}
+
 /// Primitives that share a frame, a size and a bias.
 struct Batch {
   enum class Kind { Triangles, Lines, Points };
@@ -45,8 +53,7 @@ struct Batch {
   std::size_t frame = 0;             ///< into Scene::frames
   float size = 1;                    ///< line width or point diameter, pixels of the picture
   double bias = 0;                   ///< drawn nearer to the viewer by this, in eye units
-  std::vector<LitVertex> corners;    ///< Triangles: 3 a triangle
-  std::vector<FlatVertex> vertices;  ///< Lines: 2 a line; Points: 1 a point
+  std::size_t first = 0, count = 0;  ///< into Scene::vertices: 3 a triangle, 2 a line, 1 a point
   std::vector<CurveRun> runs;        ///< Lines: further lines
   std::vector<float> control;        ///< of the runs
 };
@@ -62,8 +69,9 @@ struct Scene {
   Eigen::Matrix4d projection;          ///< eye to clip coordinates
   std::array<double, 4> background{};  ///< red, green, blue times alpha; alpha; all 0 to 1
   std::vector<std::vector<Placement>>
-      frames;                  ///< a shell's, and the last for what is given in the model's frame
-  std::vector<Batch> batches;  ///< in drawing order
+      frames;                    ///< a shell's, and the last for what is given in the model's frame
+  std::vector<Vertex> vertices;  ///< of all batches
+  std::vector<Batch> batches;    ///< in drawing order
 };
 
 }  // namespace meshcontour::detail

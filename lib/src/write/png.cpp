@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <climits>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 
 namespace {
@@ -48,22 +49,30 @@ unsigned char* zlib_compress(const unsigned char* data, int size, int* compresse
 namespace meshcontour {
 namespace {
 
-constexpr int kLevel = 6;     // of libdeflate; smaller files than stb's own 8
-constexpr int kUpFilter = 2;  // one filter for all rows: choosing one a row costs more than it saves here
+// Chosen for pictures of models, with their even faces and background: smaller files than stb's own in a
+// fifth of the time. Other filters make most of them larger.
+constexpr int kLevel = 4;   // of libdeflate
+constexpr int kFilter = 0;  // of PNG: none
+
+Error out_of_memory() { return {ErrorCode::OutOfMemory, "not enough memory to encode the picture"}; }
 
 bool opaque(const Image& image) {
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
-    if (image.rgba[i] != 255) return false;
-  }
-  return true;
+  std::uint8_t all = 255;
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) all &= image.rgba[i];
+  return all == 255;
 }
 
-std::vector<std::uint8_t> without_alpha(const Image& image) {
+// Freed by hand, not zeroed before use: the pictures are large.
+using Bytes = std::unique_ptr<unsigned char, decltype(&std::free)>;
+
+Bytes without_alpha(const Image& image) {
   const std::size_t pixels = image.rgba.size() / 4;
-  std::vector<std::uint8_t> rgb(3 * pixels);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    for (std::size_t c = 0; c < 3; ++c) rgb[3 * i + c] = image.rgba[4 * i + c];
-  }
+  Bytes rgb(static_cast<unsigned char*>(std::malloc(3 * pixels + 1)), &std::free);
+  if (rgb == nullptr) throw out_of_memory();
+  const std::uint8_t* in = image.rgba.data();
+  unsigned char* out = rgb.get();
+  // Four bytes at a time; the fourth is the next pixel's first, which comes after.
+  for (std::size_t i = 0; i < pixels; ++i, in += 4, out += 3) std::memcpy(out, in, 4);
   return rgb;
 }
 
@@ -85,20 +94,20 @@ void check(const Image& image) {
 std::vector<std::uint8_t> encode_png(const Image& image) {
   check(image);
   static const bool configured = [] {
-    stbi_write_force_png_filter = kUpFilter;
+    stbi_write_force_png_filter = kFilter;
     stbi_write_png_compression_level = kLevel;
     return true;
   }();
   (void)configured;
   const bool drop_alpha = opaque(image);
-  const std::vector<std::uint8_t> rgb = drop_alpha ? without_alpha(image) : std::vector<std::uint8_t>();
+  const Bytes rgb = drop_alpha ? without_alpha(image) : Bytes(nullptr, &std::free);
+  const unsigned char* pixels = drop_alpha ? rgb.get() : image.rgba.data();
   const int channels = drop_alpha ? 3 : 4;
   int size = 0;
-  const std::unique_ptr<unsigned char, decltype(&std::free)> png(
-      stbi_write_png_to_mem(drop_alpha ? rgb.data() : image.rgba.data(), channels * image.width, image.width,
-                            image.height, channels, &size),
+  const Bytes png(
+      stbi_write_png_to_mem(pixels, channels * image.width, image.width, image.height, channels, &size),
       &std::free);
-  if (png == nullptr) throw Error(ErrorCode::OutOfMemory, "not enough memory to encode the picture");
+  if (png == nullptr) throw out_of_memory();
   return {png.get(), png.get() + size};
 }
 

@@ -2,6 +2,7 @@
 
 // Small models made by hand for the pictures.
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -45,6 +46,24 @@ inline Shell rectangle(const Point& low, const Point& high, const Rgba& color) {
   shell.points = {low, {high.x(), low.y(), low.z()}, high, {low.x(), high.y(), low.z()}};
   shell.triangles = {{0, 1, 2}, {0, 2, 3}};
   shell.patches = {{"", color, 0, 2}};
+  return shell;
+}
+
+/// A box of one colour, a patch a side, seen from outside.
+inline Shell box(const Point& low, const Point& high, const Rgba& color) {
+  Shell shell;
+  shell.id = "box";
+  for (int corner = 0; corner < 8; ++corner) {
+    shell.points.push_back(
+        {corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(), corner & 4 ? high.z() : low.z()});
+  }
+  constexpr std::array<std::array<Index, 4>, 6> sides = {
+      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+  for (const auto& side : sides) {
+    shell.patches.push_back({"", color, shell.triangles.size(), 2});
+    shell.triangles.push_back({side[0], side[1], side[2]});
+    shell.triangles.push_back({side[0], side[2], side[3]});
+  }
   return shell;
 }
 
