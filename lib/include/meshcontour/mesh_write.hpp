@@ -17,7 +17,8 @@ std::optional<MeshFormat> mesh_format(std::string_view name);
 
 struct MeshWriteOptions {
   bool binary = true;  ///< STL and PLY; OFF and OBJ are text always
-  bool colors = true;  ///< of patches: a colour a face in OFF and PLY
+  /// Patches are kept, where there is more than one; false: triangles only, which the simplest readers take.
+  bool patches = true;
 };
 
 /// Writes the triangles of every instance, placed; memory is bounded by one buffer.
@@ -27,8 +28,9 @@ struct MeshWriteOptions {
 /// read back the same, but for binary STL, which is in single precision. Triangles of mirrored instances are
 /// turned.
 ///
-/// Patches are kept as groups `patch_N` (N from 1, over all instances) in OBJ, as solids of the same name in
-/// text STL, as the face property `patch` in PLY, and by their colours in OFF and PLY. Binary STL has none.
+/// Patches are kept as groups `patch_N` (N from 1, over all instances) in OBJ, as solids of the same name in text STL,
+/// as the face property `patch` in PLY, and by a colour a face in OFF and PLY; where all have the same colour each gets
+/// one of its own. Binary STL has none.
 ///
 /// @param notes   findings are appended: triangles that collapse in single precision.
 /// @throws Error  InputOutput from the sink; BadData if a coordinate does not fit single precision, or there

@@ -23,12 +23,17 @@ struct MeshPiece {
   }
 };
 
-/// All instances of a model in order, with sums of what they hold.
+/// All instances of a model in order, with sums of what they hold; patches only if they are to be kept.
 struct MeshPieces {
-  explicit MeshPieces(const Model& model);
+  MeshPieces(const Model& model, const MeshWriteOptions& options);
 
   std::vector<MeshPiece> pieces;
   std::uint64_t points = 0, triangles = 0;
+  std::size_t patches = 0;
+  bool one_color = true;  ///< all patches have the same
+
+  /// The colour of a patch, told apart from the others where the model does not.
+  Rgba color(const Patch& patch, std::size_t number) const;
 };
 
 /// Calls visit(point) for the points of all instances.
@@ -39,7 +44,7 @@ void for_each_point(const MeshPieces& mesh, Visit&& visit) {
   }
 }
 
-/// Calls visit(piece, patch, number) for the patches of all instances; numbers from 1.
+/// Calls visit(piece, patch, number) for the patches of all instances, kept or not; numbers from 1.
 template <typename Visit>
 void for_each_patch(const MeshPieces& mesh, Visit&& visit) {
   for (const MeshPiece& piece : mesh.pieces) {
@@ -61,7 +66,7 @@ void for_each_triangle(const MeshPiece& piece, const Patch& patch, Visit&& visit
 /// @throws Error  BadData if a count is above what the format can hold.
 void check_count(std::uint64_t count, std::uint64_t largest, std::string_view what);
 
-void write_off(const MeshPieces& mesh, const MeshWriteOptions& options, Sink& sink);
+void write_off(const MeshPieces& mesh, Sink& sink);
 void write_obj_mesh(const MeshPieces& mesh, Sink& sink);
 void write_stl(const MeshPieces& mesh, const MeshWriteOptions& options, Sink& sink,
                std::vector<Diagnostic>& notes);

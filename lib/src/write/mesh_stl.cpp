@@ -59,19 +59,24 @@ void write_binary(const MeshPieces& mesh, Sink& sink, std::vector<Diagnostic>& n
       {Diagnostic::Severity::Warning, "triangle with two corners equal in single precision", {}, collapsed});
 }
 
+void write_facet(const Corners& corners, TextWriter& out) {
+  const Eigen::Vector3f normal = normal_of(corners).cast<float>();
+  out.print("facet normal {} {} {}\n outer loop\n", normal.x(), normal.y(), normal.z());
+  for (const Point& p : corners) out.print("  vertex {} {} {}\n", p.x(), p.y(), p.z());
+  out.text(" endloop\nendfacet\n");
+}
+
 void write_text(const MeshPieces& mesh, Sink& sink) {
   TextWriter out(sink);
+  if (mesh.patches == 0) out.text("solid mesh\n");
   for_each_patch(mesh, [&](const MeshPiece& piece, const Patch& patch, std::size_t number) {
-    out.print("solid patch_{}\n", number);
+    if (mesh.patches > 0) out.print("solid patch_{}\n", number);
     for (std::size_t t = patch.first_triangle; t < patch.first_triangle + patch.triangle_count; ++t) {
-      const Corners corners = corners_of(piece, t);
-      const Eigen::Vector3f normal = normal_of(corners).cast<float>();
-      out.print("facet normal {} {} {}\n outer loop\n", normal.x(), normal.y(), normal.z());
-      for (const Point& p : corners) out.print("  vertex {} {} {}\n", p.x(), p.y(), p.z());
-      out.text(" endloop\nendfacet\n");
+      write_facet(corners_of(piece, t), out);
     }
-    out.print("endsolid patch_{}\n", number);
+    if (mesh.patches > 0) out.print("endsolid patch_{}\n", number);
   });
+  if (mesh.patches == 0) out.text("endsolid mesh\n");
   out.flush();
 }
 

@@ -28,10 +28,10 @@ std::optional<MeshFormat> mesh_format(std::string_view name) {
 
 void write_mesh(MeshFormat format, const Model& model, const MeshWriteOptions& options, Sink& sink,
                 std::vector<Diagnostic>& notes) {
-  const MeshPieces mesh(model);
+  const MeshPieces mesh(model, options);
   switch (format) {
     case MeshFormat::Off:
-      return write_off(mesh, options, sink);
+      return write_off(mesh, sink);
     case MeshFormat::Obj:
       return write_obj_mesh(mesh, sink);
     case MeshFormat::Stl:
@@ -43,8 +43,8 @@ void write_mesh(MeshFormat format, const Model& model, const MeshWriteOptions& o
 
 namespace detail {
 
-MeshPieces::MeshPieces(const Model& model) {
-  std::size_t patches = 0;
+MeshPieces::MeshPieces(const Model& model, const MeshWriteOptions& options) {
+  const Rgba* first_color = nullptr;
   for (const Instance& instance : model.instances) {
     const Shell& shell = model.shells[instance.shell];
     MeshPiece piece{shell, instance};
@@ -56,7 +56,20 @@ MeshPieces::MeshPieces(const Model& model) {
     points += shell.points.size();
     triangles += shell.triangles.size();
     patches += shell.patches.size();
+    for (const Patch& patch : shell.patches) {
+      if (first_color == nullptr) first_color = &patch.color;
+      one_color = one_color && patch.color == *first_color;
+    }
   }
+  if (!options.patches || patches == 1) patches = 0;
+}
+
+Rgba MeshPieces::color(const Patch& patch, std::size_t number) const {
+  if (!one_color) return patch.color;
+  // Multiples of an odd number differ modulo 2^24.
+  const std::uint32_t mixed = static_cast<std::uint32_t>(number) * 0x9E3779;
+  const auto channel = [&](int shift) { return static_cast<std::uint8_t>(mixed >> shift); };
+  return {channel(16), channel(8), channel(0), 255};
 }
 
 void check_count(std::uint64_t count, std::uint64_t largest, std::string_view what) {

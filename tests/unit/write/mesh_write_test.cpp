@@ -117,6 +117,20 @@ TEST_CASE("write_mesh: every instance is written where it stands, mirrored ones 
   }
 }
 
+TEST_CASE("write_mesh: patches of one colour are told apart, or left out on request", "[write][mesh]") {
+  Model model = sample();
+  for (Patch& patch : model.shells[0].patches) patch.color = Rgba{};
+  for (const MeshFormat format : {MeshFormat::Off, MeshFormat::Obj, MeshFormat::Ply}) {
+    CHECK(read_model(written(format, model), name_of(format)).shells[0].patches.size() == 6);
+    for (const bool binary : {false, true}) {
+      const Model plain = read_model(written(format, model, {binary, false}), name_of(format));
+      CHECK_FALSE(plain.has_patches);
+      CHECK(plain.shells[0].triangles == model.shells[0].triangles);
+    }
+  }
+  CHECK_FALSE(read_model(written(MeshFormat::Stl, model, {false, false}), "a.stl").has_patches);
+}
+
 TEST_CASE("write_mesh: single precision says what it cannot hold", "[write][mesh][error]") {
   Model model = sample();
   StringSink sink;
