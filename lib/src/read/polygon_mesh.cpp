@@ -7,7 +7,7 @@
 #include "meshcontour/cleaning.hpp"
 #include "meshcontour/segmentation.hpp"
 #include "meshcontour/welding.hpp"
-#include "read/triangulate.hpp"
+#include "model/triangulate.hpp"
 
 namespace meshcontour::detail {
 namespace {

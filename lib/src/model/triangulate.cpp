@@ -1,4 +1,4 @@
-#include "read/triangulate.hpp"
+#include "model/triangulate.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

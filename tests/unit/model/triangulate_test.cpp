@@ -1,4 +1,4 @@
-#include "read/triangulate.hpp"
+#include "model/triangulate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -77,13 +77,13 @@ std::vector<Point> star(std::mt19937& random, std::size_t n) {
 
 }  // namespace
 
-TEST_CASE("triangulate: a convex polygon is a fan from its first corner", "[read][triangulate]") {
+TEST_CASE("triangulate: a convex polygon is a fan from its first corner", "[model][triangulate]") {
   const Cut result = cut({{0, 0, 0}, {2, 0, 0}, {3, 1, 0}, {2, 2, 0}, {0, 2, 0}});
   CHECK(result.triangles == std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}});
   CHECK(result.simple);
 }
 
-TEST_CASE("triangulate: concave quads take the diagonal inside", "[read][triangulate]") {
+TEST_CASE("triangulate: concave quads take the diagonal inside", "[model][triangulate]") {
   const std::vector<Point> arrow = {{0, 0, 0}, {2, 0, 1}, {0.5, 0.5, 0.5}, {0, 2, 1}};
   for (std::size_t first = 0; first < 4; ++first) {
     std::vector<Point> polygon = arrow;
@@ -95,7 +95,7 @@ TEST_CASE("triangulate: concave quads take the diagonal inside", "[read][triangu
   }
 }
 
-TEST_CASE("triangulate: corners on straight sides give no triangle without area", "[read][triangulate]") {
+TEST_CASE("triangulate: corners on straight sides give no triangle without area", "[model][triangulate]") {
   const std::vector<Point> polygon = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0},
                                       {2, 2, 0}, {1, 2, 0}, {0, 2, 0}, {0, 1, 0}};
   const Cut result = cut(polygon);
@@ -105,7 +105,7 @@ TEST_CASE("triangulate: corners on straight sides give no triangle without area"
 }
 
 TEST_CASE("triangulate: random star polygons are covered without overlap, either way round",
-          "[read][triangulate][property]") {
+          "[model][triangulate][property]") {
   std::mt19937 random(1);
   for (int round = 0; round < 200; ++round) {
     std::vector<Point> polygon = star(random, 4 + random() % 40);
@@ -117,7 +117,7 @@ TEST_CASE("triangulate: random star polygons are covered without overlap, either
   }
 }
 
-TEST_CASE("triangulate: polygons that cross themselves or are flat still close", "[read][triangulate]") {
+TEST_CASE("triangulate: polygons that cross themselves or are flat still close", "[model][triangulate]") {
   const std::vector<std::vector<Point>> polygons = {
       {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}},               // a bow tie
       {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {1.5, 0, 0}},  // a line
@@ -131,7 +131,7 @@ TEST_CASE("triangulate: polygons that cross themselves or are flat still close",
   CHECK_FALSE(cut(polygons[1]).simple);
 }
 
-TEST_CASE("triangulate: a comb of many teeth ends in reasonable time", "[read][triangulate]") {
+TEST_CASE("triangulate: a comb of many teeth ends in reasonable time", "[model][triangulate]") {
   std::vector<Point> comb;
   const int teeth = 20'000;
   for (int i = 0; i < teeth; ++i) {
