@@ -6,15 +6,15 @@ import pathlib
 import re
 import sys
 
-STAGES = {"read", "sweep", "multires", "boundary", "fit", "render", "write", "report"}
+STAGES = {"read", "sweep", "multires", "boundary", "fit", "graph", "render", "write", "report"}
 # What a room may include of the others' private headers, besides its own.
 BELOW = {"base": set(), "model": {"base"}, "pipeline": {"base", "model"} | STAGES}
 BELOW.update({stage: {"base", "model"} for stage in STAGES})
 # Where a library's headers may be included: a folder or a file's beginning.
 LIBRARIES = {
     r"CLI/": ["app/command_line"],
-    r"CGAL/|boost/": ["lib/include/meshcontour/surface_mesh.hpp", "lib/src/boundary/", "lib/src/model/",
-                      "lib/src/multires/", "lib/src/sweep/", "tests/"],
+    r"CGAL/|boost/": ["lib/include/meshcontour/surface_mesh.hpp", "lib/src/boundary/", "lib/src/graph/",
+                      "lib/src/model/", "lib/src/multires/", "lib/src/sweep/", "tests/"],
     r"GL/|EGL/": ["lib/src/render/"],
     r"stb/|stb_|libdeflate": ["lib/src/write/png", "tests/"],
     r"tinyxml2": ["lib/src/read/", "tests/"],

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -38,5 +39,16 @@ struct MeshWriteOptions {
 ///                triangles or points than the format can count.
 void write_mesh(MeshFormat format, const Model& model, const MeshWriteOptions& options, Sink& sink,
                 std::vector<Diagnostic>& notes);
+
+/// Files that hold lines.
+enum class LineFormat {
+  Obj,  ///< `l` elements, an object a name
+  Wrl,  ///< VRML 2.0, an indexed line set
+};
+
+/// Writes lines, e.g. spanning trees and shortest paths, see graph.hpp.
+///
+/// @throws Error  InputOutput from the sink.
+void write_lines(LineFormat format, std::span<const Polyline> lines, Sink& sink);
 
 }  // namespace meshcontour

@@ -150,3 +150,14 @@ TEST_CASE("write_mesh: no shell, or one without triangles, gives a file that rea
     CHECK(read_model(written(format, model), name_of(format)).shells[0].triangles.empty());
   }
 }
+
+TEST_CASE("write_lines: OBJ polylines and a VRML line set", "[write][mesh]") {
+  const std::vector<Polyline> lines = {{"tree", {{0, 0, 0}, {1, 0, 0}, {1, 0.1, 0}}},
+                                       {"tree", {{2, 0, 0}, {3, 0, 0}}}};
+  StringSink obj, wrl;
+  write_lines(LineFormat::Obj, lines, obj);
+  CHECK(obj.text == "o tree\nv 0 0 0\nv 1 0 0\nv 1 0.1 0\nl 1 2 3\nv 2 0 0\nv 3 0 0\nl 4 5\n");
+  write_lines(LineFormat::Wrl, lines, wrl);
+  CHECK(wrl.text.starts_with("#VRML V2.0 utf8\n"));
+  CHECK(wrl.text.find("0, 1, 2, -1,\n3, 4, -1,\n") != std::string::npos);
+}
