@@ -202,9 +202,9 @@ def main(folders):
                 continue
             try:
                 print(f"{folder.name}/{name}: {check(folder / name, wanted, size)}")
-            except Difference as difference:
+            except Exception as fault:  # a reader's own complaint is a difference too
                 failures += 1
-                print(f"{folder.name}/{name}: DIFFERENT: {difference}")
+                print(f"{folder.name}/{name}: DIFFERENT: {fault or type(fault).__name__}")
     return 1 if failures else 0
 
 

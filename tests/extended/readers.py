@@ -34,6 +34,7 @@ def read_step(path):
     from OCP.BRepCheck import BRepCheck_Analyzer
     from OCP.IFSelect import IFSelect_ReturnStatus
     from OCP.STEPControl import STEPControl_Reader
+    from OCP.TopAbs import TopAbs_ShapeEnum
     reader = STEPControl_Reader()
     if reader.ReadFile(str(path)) != IFSelect_ReturnStatus.IFSelect_RetDone:
         raise ValueError(f"{path}: OpenCASCADE cannot read it")
@@ -42,9 +43,10 @@ def read_step(path):
     shape = reader.OneShape()
     if shape.IsNull():
         return [], True, check.NbEntities()
-    loops = []
-    for group in children(shape):
-        loops += [step_loop(element) for element in children(group)]
+    groups = children(shape)
+    if any(group.ShapeType() != TopAbs_ShapeEnum.TopAbs_COMPOUND for group in groups):
+        groups = [shape]  # a set alone is the shape itself
+    loops = [step_loop(element) for group in groups for element in children(group)]
     return loops, BRepCheck_Analyzer(shape).IsValid(), check.NbEntities()
 
 
