@@ -21,12 +21,11 @@ enum class FrameMethod {
 struct SweepOptions {
   FrameMethod frames = FrameMethod::RotationMinimizing;
   bool caps = false;  ///< close the open ends of revolutions, and of cylinders whose profile is closed
-  double corner_angle =
-      3 * std::numbers::pi / 180;  ///< a profile or sweep turns by more than this at a corner, radians
+  /// A profile or a sweep turns by more than this at a corner; radians, above 0 and at most pi.
+  double corner_angle = 3 * std::numbers::pi / 180;
   std::uint64_t max_triangles = 200'000'000;  ///< of all surfaces together
-  std::size_t max_frames =
-      1'000'000;         ///< curves beyond this many samples, all together, get no NamedCurve::frames
-  unsigned threads = 0;  ///< 0: one per processor
+  std::size_t max_frames = 1'000'000;  ///< of all curves together; those beyond get no NamedCurve::frames
+  unsigned threads = 0;                ///< 0: one per processor
 };
 
 /// A curve to sweep along, to sweep or to revolve.
@@ -75,8 +74,9 @@ struct FramedCurve {
   std::vector<CurveFrame> frames;  ///< pieces * steps + 1; where the curve has a corner, as it leaves it
   bool closed = false;             ///< the ends meet within 1e-9 of the size of the curve
   bool smooth = false;             ///< closed, and the tangents at the ends agree
-  double closing_angle =
-      0;  ///< of a smooth closed curve: frame 0 from the carried last one, before it was spread; radians
+  /// Of a smooth closed curve: from the last frame as it was carried to the first one, about the tangent;
+  /// radians.
+  double closing_angle = 0;
   double length = 0;  ///< arc length, model units
 };
 

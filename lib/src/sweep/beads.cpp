@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kOnAxis = 1e-9;  // of the largest distance from the axis
 
-// The root of f in the bracket [a, b], by false position with the Illinois rule [Dowell & Jarratt 1971]. f
-// has opposite signs at the ends.
+// The root of f in the bracket [a, b], by false position with the Illinois rule [Dowell & Jarratt 1971,
+// doi 10.1007/BF01934364]. f has opposite signs at the ends.
 template <class Function>
 double bracketed_root(const Function& f, double a, double b) {
   double fa = f(a), fb = f(b);

@@ -29,8 +29,8 @@ std::vector<CurveFrame> frames_of(const SampledCurve& curve, const CarriedFrames
 /// The normal at the start of a curve: z x tangent, or y x tangent where that is next to zero.
 Vector start_normal(const Vector& tangent);
 
-/// The normal after one step of double reflection [Wang et al. 2008, algorithm 1], with its tangential part
-/// removed.
+/// The normal after one step of double reflection [Wang, Juettler, Zheng & Liu 2008,
+/// doi 10.1145/1330511.1330513], with its tangential part removed.
 ///
 /// @param step     from the first to the second point.
 /// @param closest  a step not longer than this is none: the frame only follows the tangent.

@@ -143,7 +143,8 @@ void append_normals(const Grid& grid, const std::vector<Region>& regions, const 
       column = grid.next_column(column);
     }
   };
-  for (const auto& [strips, spans, name] : regions) {
+  for (const Region& region : regions) {
+    const Range &strips = region.strips, &spans = region.spans;
     const std::size_t per_strip = triangles_in_strip(grid, spans);
     parallel_for(strips.size(), grain_of(per_strip), threads, [&](std::size_t begin, std::size_t end) {
       RowOfNormals near(2 * spans.size() + 2), far(near.size());
