@@ -117,7 +117,7 @@ std::int64_t unix_time();
 
 /// Reports that other programs read.
 enum class ReportFormat {
-  Json,  ///< our own, docs/report.schema.json: one line a file; times are medians of the repetitions
+  Json,  ///< our own, data/report.schema.json: one line a file; times are medians of the repetitions
   GoogleBenchmark,  ///< an iteration a stage and repetition, named STAGE/FILE; files that failed are left out
   JUnit,            ///< a test case a file
   GitHubAction,     ///< github-action-benchmark's customSmallerIsBetter: medians, FILE/STAGE

@@ -1,4 +1,4 @@
-// Our own report: a record a line. docs/report.schema.json describes it.
+// Our own report: a record a line. data/report.schema.json describes it.
 
 #include <array>
 
