@@ -211,13 +211,20 @@ std::optional<ArcFit> fit_circle(std::span<const Point> ring, double limit) {
   arc.axis = frame.eigenvectors().col(0).normalized();
   if (arc.axis.dot(area) < 0) arc.axis = -arc.axis;
   const Vector x = arc.axis.unitOrthogonal(), y = arc.axis.cross(x);
-  std::vector<Eigen::Vector2d> flat(n);
-  for (std::size_t i = 0; i < n; ++i) flat[i] = {(ring[i] - mean).dot(x), (ring[i] - mean).dot(y)};
-  Eigen::Vector2d centre;
-  if (!fit_plane_circle(flat, centre, arc.radius)) return std::nullopt;
-  arc.center = mean + centre.x() * x + centre.y() * y;
-  fit.residual = checked_residual(arc, ring, limit);
-  if (fit.residual < 0) return std::nullopt;
+  // A few points tell what is no circle; those of one are then fitted all.
+  for (const std::size_t samples : {std::min(n, kSamples), n}) {
+    std::vector<Eigen::Vector2d> flat(samples);
+    for (std::size_t s = 0; s < samples; ++s) {
+      const Vector v = ring[s * n / samples] - mean;
+      flat[s] = {v.dot(x), v.dot(y)};
+    }
+    Eigen::Vector2d centre;
+    if (!fit_plane_circle(flat, centre, arc.radius)) return std::nullopt;
+    arc.center = mean + centre.x() * x + centre.y() * y;
+    fit.residual = checked_residual(arc, ring, samples < n ? 4 * limit : limit);
+    if (fit.residual < 0) return std::nullopt;
+    if (samples == n) break;
+  }
   const double sweep = checked_sweep(arc, ring, true);
   if (!(std::abs(sweep - kTwoPi) < 1e-6)) return std::nullopt;
   const Vector spoke = ring[0] - arc.center;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "fit/certificate.hpp"
+#include "fit/cleaning.hpp"
 #include "fit/ellipse_fit.hpp"
 #include "fit/model_recognition.hpp"
 #include "meshcontour/parallel.hpp"
@@ -46,20 +47,26 @@ bool is_full(const Curve& curve) {
   return false;
 }
 
+// The products of a certificate lose a few digits of the largest coordinate; the bound must not.
+double with_rounding(double deviation, const Point& origin, double extent) {
+  return deviation > 0 ? deviation + 1e-15 * (origin.cwiseAbs().maxCoeff() + extent) : deviation;
+}
+
 double deviation_of(const Path& path, const Piece& piece) {
   const bool full = is_full(piece.curve);
   const std::span<const Point> points = path.run(piece.begin, full ? piece.end - 1 : piece.end);
-  if (const auto* line = std::get_if<LineSegment>(&piece.curve)) return line_deviation(*line, points);
-  if (const auto* arc = std::get_if<CircularArc>(&piece.curve)) return arc_deviation(*arc, points);
+  double deviation = piece.deviation;
+  if (const auto* line = std::get_if<LineSegment>(&piece.curve)) deviation = line_deviation(*line, points);
+  if (const auto* arc = std::get_if<CircularArc>(&piece.curve)) deviation = arc_deviation(*arc, points);
   if (const auto* arc = std::get_if<EllipticalArc>(&piece.curve)) {
-    return ellipse_deviation(*arc, points, piece.residual);
+    deviation = ellipse_deviation(*arc, points, piece.residual);
   }
-  return piece.deviation;
+  return with_rounding(deviation + path.dropped, path.origin, path.extent);
 }
 
 PlacedPiece placed(const Shell& shell, const EdgeChain& chain, const Recognition& fit, const Piece& piece) {
   PlacedPiece result{fit.path.source[piece.begin], fit.path.source[piece.end], piece.curve, 0};
-  result.deviation = deviation_of(fit.path, piece) + fit.path.dropped;
+  result.deviation = deviation_of(fit.path, piece);
   const Point& origin = fit.path.origin;
   if (is_full(piece.curve)) {
     std::visit(
@@ -159,6 +166,7 @@ class ShellContours {
     const auto* arc = std::get_if<CircularArc>(&conic.curve);
     segment.deviation = arc ? arc_deviation(*arc, points)
                             : ellipse_deviation(std::get<EllipticalArc>(conic.curve), points, conic.residual);
+    segment.deviation = with_rounding(segment.deviation, points[0], box_diagonal(points));
     std::tie(segment.edge, segment.edge_count) =
         edge_range(recognition_.chains.uses[conic.patch][conic.loop]);
     contour.deviation = segment.deviation;

@@ -69,8 +69,8 @@ class Judge {
     return run_.ends_hard && (at_end ? piece.end == run_.end : piece.begin == run_.begin);
   }
 
-  // Distance of the vertices `steps` beyond the ends to the piece's line or circle, at most to the run's own ends;
-  // infinite if there are none.
+  // Distance of the vertices `steps` beyond the ends to the piece's line or circle, at most to the run's own
+  // ends; infinite if there are none.
   double off_beyond(const Piece& piece, std::size_t steps = 1) const {
     double nearest = kNever;
     for (const bool at_end : {false, true}) {
@@ -78,7 +78,8 @@ class Judge {
       std::size_t reach = steps;
       if (run_.ends_hard) reach = std::min(reach, at_end ? run_.end - piece.end : piece.begin - run_.begin);
       const auto signed_reach = static_cast<std::ptrdiff_t>(reach);
-      const Point* next = path_.beyond(at_end ? piece.end : piece.begin, at_end ? signed_reach : -signed_reach);
+      const Point* next =
+          path_.beyond(at_end ? piece.end : piece.begin, at_end ? signed_reach : -signed_reach);
       if (next) nearest = std::min(nearest, distance_to(piece, *next));
     }
     return nearest;
@@ -108,7 +109,8 @@ class Judge {
     if (steps) factor /= 3;
     if (off >= factor * noise(piece)) return true;
     // Noise hides the first vertices beyond a joint, not those a quarter of the arc away.
-    return piece.chords() >= 12 && noise_like(piece) && off_beyond(piece, piece.chords() / 4) >= 20 * noise(piece);
+    return piece.chords() >= 12 && noise_like(piece) &&
+           off_beyond(piece, piece.chords() / 4) >= 20 * noise(piece);
   }
 
   const Piece* neighbour(std::size_t k, bool at_end) const {
@@ -185,7 +187,11 @@ std::optional<Piece> two_chord_arc(const Path& path, const Run& run, std::size_t
   const Piece piece{begin, begin + 2, fit->arc, fit->residual, true};
   const double sagitta = fit->arc.radius * (1 - std::cos(fit->arc.angle / 2));
   const double radius_slack = 10 * eps * fit->arc.radius / sagitta;
-  if (options.evidence && options.evidence->supports(options.shell, fit->arc, radius_slack)) return piece;
+  if (options.evidence) {
+    CircularArc placed = fit->arc;
+    placed.center += path.origin;
+    if (options.evidence->shells[options.shell].circles.has_coaxial(placed, radius_slack)) return piece;
+  }
   for (const bool at_end : {false, true}) {
     const std::size_t joint = at_end ? begin + 2 : begin;
     if (run.ends_hard && joint == (at_end ? run.end : run.begin)) return std::nullopt;

@@ -122,8 +122,8 @@ class FreeFormSplitter {
     take_spline(begin, begin + 2);
   }
 
-  // The whole stretch as one arc or ellipse. Above kNoise of the tolerance only where no patch corners bound the
-  // chain: there a curve that is nearly an arc is more likely an edge of its own kind than a noisy arc.
+  // The whole stretch as one arc or ellipse. Above kNoise of the tolerance only where no patch corners bound
+  // the chain: there a curve that is nearly an arc is more likely an edge of its own kind than a noisy arc.
   std::optional<Piece> as_conic(std::size_t begin, std::size_t end) const {
     if (options_.bounded && eps_ > kNoise * options_.tolerance) return std::nullopt;
     const std::span<const Point> points = path_.run(begin, end);
@@ -134,8 +134,9 @@ class FreeFormSplitter {
       const double slack = 8 * eps_ / shortest;
       const double uneven = unevenness(path_, begin, end);
       const bool even = slack < 0.05 && uneven <= 1e-3 + slack;
-      const bool deep = points.size() >= 7 ? sagitta > 50 * fit->residual
-                                           : sagitta > 10 * eps_ && uneven < 0.05 + slack && !options_.bounded;
+      const bool deep = points.size() >= 7
+                            ? sagitta > 50 * fit->residual
+                            : sagitta > 10 * eps_ && uneven < 0.05 + slack && !options_.bounded;
       if (even || deep) return Piece{begin, end, fit->arc, fit->residual, true};
     }
     if (points.size() < 9) return std::nullopt;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "fit/small_arcs.hpp"
+
 namespace meshcontour::detail {
 
 namespace {
@@ -24,14 +26,6 @@ int decimals_of(double x) {
   return kMostDecimals + 1;
 }
 
-bool sorts_before(const CircularArc& a, const CircularArc& b) {
-  const auto key = [](const CircularArc& arc) {
-    return std::array{arc.radius,   arc.center.x(), arc.center.y(), arc.center.z(),
-                      arc.axis.x(), arc.axis.y(),   arc.axis.z()};
-  };
-  return key(a) < key(b);
-}
-
 void add_arc(const Recognition& fit, const Piece& piece, ModelEvidence& evidence,
              std::vector<CircularArc>& arcs) {
   CircularArc arc = std::get<CircularArc>(piece.curve);
@@ -50,15 +44,16 @@ void add_arc(const Recognition& fit, const Piece& piece, ModelEvidence& evidence
 
 ModelEvidence gather_evidence(std::span<const ShellRecognition> shells) {
   ModelEvidence evidence;
-  evidence.arcs.resize(shells.size());
-  for (std::size_t s = 0; s < shells.size(); ++s) {
-    for (const Recognition& fit : shells[s].fits) {
+  for (const ShellRecognition& shell : shells) {
+    std::vector<CircularArc> arcs;
+    for (const Recognition& fit : shell.fits) {
       for (const Piece& piece : fit.pieces) {
-        if (piece.is_arc() && piece.recognized && piece.chords() >= 3)
-          add_arc(fit, piece, evidence, evidence.arcs[s]);
+        if (piece.is_arc() && piece.recognized && piece.chords() >= 3) add_arc(fit, piece, evidence, arcs);
       }
     }
-    std::sort(evidence.arcs[s].begin(), evidence.arcs[s].end(), sorts_before);
+    SmallArcs small = find_small_arcs(shell);
+    arcs.insert(arcs.end(), small.pairs.begin(), small.pairs.end());
+    evidence.shells.push_back({CircleIndex(std::move(arcs)), std::move(small.chords)});
   }
   return evidence;
 }

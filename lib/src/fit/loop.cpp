@@ -5,7 +5,6 @@
 namespace meshcontour::detail {
 namespace {
 
-// The fourth powers of lengths must stay numbers.
 constexpr double kSmallestDiagonal = 1e-70, kLargestDiagonal = 1e70;
 
 }  // namespace
@@ -21,10 +20,12 @@ Loop make_loop(std::span<const Point> shell_points, const BoundaryLoop& boundary
   return loop;
 }
 
+bool is_usable_size(double diagonal) {
+  return diagonal <= kLargestDiagonal && (diagonal >= kSmallestDiagonal || diagonal == 0);
+}
+
 LoopDefect find_defect(const Loop& loop) {
-  const double diagonal = loop.cleaned.diagonal;
-  if (!(diagonal <= kLargestDiagonal) || (diagonal > 0 && diagonal < kSmallestDiagonal))
-    return LoopDefect::OutOfRange;
+  if (!is_usable_size(loop.cleaned.diagonal)) return LoopDefect::OutOfRange;
   if (loop.vertices.size() < (loop.closed ? 3U : 2U)) return LoopDefect::TooFewPoints;
   return LoopDefect::None;
 }

@@ -29,6 +29,9 @@ enum class LoopDefect {
 
 LoopDefect find_defect(const Loop& loop);
 
+/// Whether the fourth powers of lengths of this size are numbers; 0 is.
+bool is_usable_size(double diagonal);
+
 /// The loop's own polygon as line segments; of a single point, one segment without length. Marked as a
 /// fallback.
 Contour polygon_contour(const Loop& loop);

@@ -9,6 +9,7 @@
 #include "fit/closed_conics.hpp"
 #include "fit/end_tangents.hpp"
 #include "fit/gather_evidence.hpp"
+#include "fit/loop.hpp"
 #include "meshcontour/parallel.hpp"
 
 namespace meshcontour::detail {
@@ -81,8 +82,9 @@ class ModelRecognizer {
     for (std::size_t p = 0; p < boundaries_[s].patches.size(); ++p) {
       const std::vector<BoundaryLoop>& loops = boundaries_[s].patches[p].loops;
       for (std::size_t l = 0; l < loops.size(); ++l) {
-        const double tolerance =
-            options_.tolerance > 0 ? options_.tolerance : kDefaultTolerance * diagonal_of(shell, loops[l]);
+        const double diagonal = diagonal_of(shell, loops[l]);
+        if (!is_usable_size(diagonal)) continue;
+        const double tolerance = options_.tolerance > 0 ? options_.tolerance : kDefaultTolerance * diagonal;
         for (const ChainUse& use : result.chains.uses[p][l]) {
           RecognitionOptions& chain = settings_[s][use.chain];
           chain.tolerance = std::min(chain.tolerance, tolerance);
@@ -90,10 +92,6 @@ class ModelRecognizer {
         }
       }
     }
-  }
-
-  static bool is_clear(const Recognition& fit) {
-    return std::all_of(fit.pieces.begin(), fit.pieces.end(), [](const Piece& p) { return p.recognized; });
   }
 
   void recognize_all(bool again) {
@@ -105,10 +103,12 @@ class ModelRecognizer {
   void recognize_one(const Task& task, bool again) {
     ShellRecognition& shell = shells_[task.shell];
     Recognition& fit = shell.fits[task.chain];
-    if (again && is_clear(fit)) return;
     RecognitionOptions settings = settings_[task.shell][task.chain];
     if (!(settings.tolerance > 0 && settings.tolerance < kInfinity)) return;
-    if (again) settings.evidence = &evidence_;
+    if (again) {
+      settings.evidence = &evidence_;
+      if (!may_change(fit, settings)) return;
+    }
     const EdgeChain& chain = shell.chains.chains[task.chain];
     fit = recognize(make_path(points_of(model_.shells[task.shell], chain), chain.closed), settings);
   }

@@ -48,7 +48,7 @@ Path make_path(std::span<const Point> points, bool closed) {
   path.extent = cleaned.diagonal;
   path.dropped = cleaned.dropped;
   for (Point& p : path.points) p -= path.origin;
-  if (closed) {
+  if (closed && path.points.size() > 1) {
     path.points.push_back(path.points[0]);
     path.source.push_back(path.source[0]);
   }

@@ -50,8 +50,8 @@ std::optional<Piece> longest(std::size_t begin, std::size_t end, std::size_t sho
   return best;
 }
 
-// Twice the length within eps of a line is four times as deep, which may be enough to tell an arc from it; else two
-// more doublings are.
+// Twice the length within eps of a line is four times as deep, which may be enough to tell an arc from it;
+// else two more doublings are.
 std::optional<Piece> longest_arc(const Path& path, std::size_t begin, std::size_t end, std::size_t straight,
                                  double eps) {
   const auto attempt = [&](std::size_t j) { return try_arc(path, begin, j, eps); };
@@ -80,8 +80,9 @@ std::vector<Piece> greedy(const Path& path, std::size_t begin, std::size_t end, 
   return pieces;
 }
 
-// Whether a chord at the end of an arc is no part of it: its length is off the even ones between, and its far point
-// off the arc through the others, or, where noise hides that, the path goes on in steps like the chord's.
+// Whether a chord at the end of an arc is no part of it: its length is off the even ones between, and its far
+// point off the arc through the others, or, where noise hides that, the path goes on in steps like the
+// chord's.
 bool is_foreign(const Path& path, const Piece& arc, bool at_end, double eps, std::optional<Piece>& rest) {
   if (arc.chords() < kShortestArc + 1) return false;
   const std::size_t begin = arc.begin + (at_end ? 0 : 1), end = arc.end - (at_end ? 1 : 0);
@@ -123,10 +124,12 @@ std::vector<Piece> give_away_foreign_ends(const Path& path, const std::vector<Pi
   return result;
 }
 
-bool is_short_line(const Piece& piece) { return piece.is_line() && piece.chords() <= kMostMoved; }
+bool is_short_line(const Piece& piece) {
+  return piece.is_line() && piece.chords() <= kMostMoved;
+}
 
-// Two neighbours as one: an arc and a few chords that are steps of it, or two pieces of the same kind, which noise
-// may have cut apart.
+// Two neighbours as one: an arc and a few chords that are steps of it, or two pieces of the same kind, which
+// noise may have cut apart.
 std::optional<Piece> joined(const Path& path, const Piece& a, const Piece& b, const GrowLimits& limits) {
   std::optional<Piece> rest;
   if (a.is_arc() || b.is_arc()) {
@@ -161,6 +164,37 @@ std::vector<Piece> join_neighbours(const Path& path, const std::vector<Piece>& p
   return result;
 }
 
+// The chord of a line next to an arc, when it is a step like the arc's own and the line has longer ones:
+// noise hides where the line begins, lengths do not. The two pieces with their joint moved by that chord.
+bool settle_joint(const Path& path, Piece& before, Piece& after, const GrowLimits& limits) {
+  if (before.is_arc() == after.is_arc()) return false;
+  const Piece& line = before.is_arc() ? after : before;
+  const Piece& arc = before.is_arc() ? before : after;
+  if (!line.is_line() || line.chords() < 2) return false;
+  const double beside = path.length[before.is_arc() ? line.begin : line.end - 1];
+  const double step = path.length[before.is_arc() ? arc.end - 1 : arc.begin];
+  const auto first = path.length.begin() + static_cast<std::ptrdiff_t>(line.begin);
+  const double longest = *std::max_element(first, first + static_cast<std::ptrdiff_t>(line.chords()));
+  if (std::abs(beside / step - 1) > 0.1 || longest < 2 * beside) return false;
+  const std::size_t joint = before.is_arc() ? before.end + 1 : before.end - 1;
+  std::optional<Piece> grown = before.is_arc() ? try_arc(path, before.begin, joint, limits.joined)
+                                               : try_arc(path, joint, after.end, limits.joined);
+  const std::size_t begin = before.is_arc() ? joint : line.begin, end = before.is_arc() ? line.end : joint;
+  std::optional<Piece> rest = try_line(path, begin, end, limits.joined);
+  if (!grown || !rest) return false;
+  (grown->begin < rest->begin ? before : after) = *grown;
+  (grown->begin < rest->begin ? after : before) = *rest;
+  return true;
+}
+
+void settle_joints(const Path& path, std::vector<Piece>& pieces, const GrowLimits& limits) {
+  for (std::size_t k = 0; k + 1 < pieces.size(); ++k) {
+    for (std::size_t moved = 0; moved < kMostMoved; ++moved) {
+      if (!settle_joint(path, pieces[k], pieces[k + 1], limits)) break;
+    }
+  }
+}
+
 }  // namespace
 
 Piece line_piece(const Path& path, std::size_t begin, std::size_t end) {
@@ -190,10 +224,14 @@ double unevenness(const Path& path, std::size_t begin, std::size_t end) {
   return *largest / *smallest - 1;
 }
 
-std::vector<Piece> grow_pieces(const Path& path, std::size_t begin, std::size_t end, const GrowLimits& limits) {
-  std::vector<Piece> pieces = join_neighbours(path, greedy(path, begin, end, limits.eps, limits.arcs), limits);
+std::vector<Piece> grow_pieces(const Path& path, std::size_t begin, std::size_t end,
+                               const GrowLimits& limits) {
+  std::vector<Piece> pieces =
+      join_neighbours(path, greedy(path, begin, end, limits.eps, limits.arcs), limits);
   pieces = give_away_foreign_ends(path, pieces, limits.eps);
-  return join_neighbours(path, pieces, limits);
+  pieces = join_neighbours(path, pieces, limits);
+  settle_joints(path, pieces, limits);
+  return pieces;
 }
 
 }  // namespace meshcontour::detail

@@ -38,10 +38,11 @@ struct GrowLimits {
   bool arcs = true;   ///< false: lines only
 };
 
-/// Greedy split of the points begin .. end into maximal lines (over two or more chords), maximal arcs (over three or
-/// more) and single chords; lengths are found by doubling and bisection. Arcs then take in the few chords beside them
-/// that are steps like their own, give away end chords that are not, and join with equal neighbours. Nothing is
-/// `recognized` yet. O(N log N).
-std::vector<Piece> grow_pieces(const Path& path, std::size_t begin, std::size_t end, const GrowLimits& limits);
+/// Greedy split of the points begin .. end into maximal lines (over two or more chords), maximal arcs (over
+/// three or more) and single chords; lengths are found by doubling and bisection. Arcs then take in the few
+/// chords beside them that are steps like their own, give away end chords that are not, and join with equal
+/// neighbours. Nothing is `recognized` yet. O(N log N).
+std::vector<Piece> grow_pieces(const Path& path, std::size_t begin, std::size_t end,
+                               const GrowLimits& limits);
 
 }  // namespace meshcontour::detail

@@ -10,6 +10,7 @@
 #include "fit/ellipse_fit.hpp"
 #include "fit/evidence.hpp"
 #include "fit/free_form.hpp"
+#include "fit/small_arcs.hpp"
 
 namespace meshcontour::detail {
 
@@ -17,7 +18,9 @@ namespace {
 
 constexpr double kLadder[] = {1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.3, 1};
 constexpr std::size_t kEllipsePoints = 9;
-constexpr double kTight = 1e-3;  // share of the tolerance at which a match is no accident
+constexpr std::size_t kFewChords = 3;  // so few may be an arc when the model has others like it
+constexpr double kSlack = 3;           // less than the cost of any piece
+constexpr double kTight = 1e-3;        // share of the tolerance at which a match is no accident
 
 // Joints of a CAD model may be this far off the curves that meet there, while the points between are exact;
 // share of the tolerance.
@@ -46,7 +49,10 @@ class Recognizer {
     for (std::size_t begin = 0; begin < path_.chords();) {
       std::size_t end = begin + 1;
       while (end < path_.chords() && !is_hard(end)) ++end;
-      Attempt best = best_of_ladder([&](double eps) { return at_tolerance(path_, {begin, end, true}, eps); });
+      const Run run{begin, end, true};
+      Attempt best = end - begin == 1
+                         ? single_chord(begin)
+                         : best_of_ladder([&](double eps) { return at_tolerance(path_, run, eps); });
       std::move(best.pieces.begin(), best.pieces.end(), std::back_inserter(pieces));
       begin = end;
     }
@@ -55,6 +61,22 @@ class Recognizer {
 
  private:
   bool is_hard(std::size_t vertex) const { return path_.turn[vertex] > options_.corner_angle; }
+
+  // A line, unless the shell has arcs of one chord and this is one of them.
+  Attempt single_chord(std::size_t begin) const {
+    Piece piece = line_piece(path_, begin, begin + 1);
+    piece.recognized = true;
+    if (options_.evidence) {
+      const Point start = path_.points[begin] + path_.origin, end = path_.points[begin + 1] + path_.origin;
+      for (CircularArc circle : options_.evidence->shells[options_.shell].chords) {
+        if (!is_chord_of(start, end, circle, 1e-4 * circle.radius)) continue;
+        circle.center -= path_.origin;
+        piece.curve = arc_over_chord(path_.points[begin], path_.points[begin + 1], circle);
+        break;
+      }
+    }
+    return made({piece});
+  }
 
   Recognition recognize_ring() {
     Attempt best = best_of_ladder([&](double eps) { return ring_at_tolerance(eps); });
@@ -74,8 +96,9 @@ class Recognizer {
     return rungs;
   }
 
-  // The description at the tightest tolerance that is within 15 % of the shortest. Once every piece is recognized,
-  // looser tolerances are tried only as far as joints may be off, and not at all for a single piece.
+  // The description at the tightest tolerance that is hardly longer than the shortest. Once every piece is
+  // recognized, looser tolerances are tried only as far as joints may be off, and not at all for a single
+  // piece.
   template <class AtTolerance>
   Attempt best_of_ladder(AtTolerance at) {
     std::vector<Attempt> attempts;
@@ -88,8 +111,9 @@ class Recognizer {
       if (certain_at == 0) certain_at = eps;
       if (last.pieces.size() == 1 || eps >= std::max(kJointError * options_.tolerance, 4 * certain_at)) break;
     }
-    const auto best = std::find_if(attempts.begin(), attempts.end(),
-                                   [&](const Attempt& a) { return a.cost <= 1.15 * cheapest; });
+    const double enough = cheapest + std::min(0.15 * cheapest, kSlack);
+    const auto best =
+        std::find_if(attempts.begin(), attempts.end(), [&](const Attempt& a) { return a.cost <= enough; });
     return std::move(*best);
   }
 
@@ -225,6 +249,21 @@ double description_cost(const std::vector<Piece>& pieces) {
 
 Recognition recognize(Path path, const RecognitionOptions& options) {
   return Recognizer(std::move(path), options).run();
+}
+
+bool may_change(const Recognition& fit, const RecognitionOptions& options) {
+  if (!options.evidence->shells[options.shell].chords.empty()) return true;
+  const Path& path = fit.path;
+  for (const Piece& piece : fit.pieces) {
+    if (piece.recognized) continue;
+    if (piece.is_line() || piece.chords() <= kFewChords) return true;
+    const Run run{piece.begin, piece.end, true};
+    for (std::size_t i = piece.begin; i < piece.end; ++i) {
+      if (is_long_chord(path, run, i, options)) return true;
+      if (i > piece.begin && path.turn[i] > options.evidence->angle) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace meshcontour::detail

@@ -50,8 +50,11 @@ double description_cost(const std::vector<Piece>& pieces);
 /// Takes a chain apart into lines, arcs, ellipses and B-splines.
 ///
 /// Points are matched at a ladder of tolerances from the noise up to `tolerance`; the tightest one is taken
-/// whose description is within 15 % of the shortest. So clean data is recognized at its own precision, and
-/// noisy data at its noise.
+/// whose description is hardly longer than the shortest. So clean data is recognized at its own precision,
+/// and noisy data at its noise.
 Recognition recognize(Path path, const RecognitionOptions& options);
+
+/// Whether recognize could give something else now that `options.evidence` is known. Linear.
+bool may_change(const Recognition& fit, const RecognitionOptions& options);
 
 }  // namespace meshcontour::detail
