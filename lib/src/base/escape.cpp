@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <limits>
 
 #include "base/utf8.hpp"
@@ -43,10 +42,6 @@ std::string json_quoted(std::string_view text) {
     }
   });
   return out + '"';
-}
-
-std::string json_number(double value) {
-  return std::isfinite(value) ? fmt::format("{}", value) : "null";
 }
 
 std::string xml_escaped(std::string_view text) {

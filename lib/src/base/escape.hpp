@@ -2,6 +2,9 @@
 
 // Texts of other people's files, as the text formats hold them. Invalid UTF-8 becomes U+FFFD everywhere.
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -10,8 +13,10 @@ namespace meshcontour::detail {
 /// A JSON string with its quotes. [RFC 8259]
 std::string json_quoted(std::string_view text);
 
-/// A JSON number, or null where it is not finite.
-std::string json_number(double value);
+/// Prints as a JSON number, or null where it is not finite.
+struct JsonNumber {
+  double value;
+};
 
 /// Text for XML content and for attributes in either kind of quotes; characters that XML 1.0 does not allow
 /// become U+FFFD.
@@ -25,3 +30,12 @@ std::string csv_field(std::string_view text);
 std::string one_word(std::string_view text);
 
 }  // namespace meshcontour::detail
+
+template <>
+struct fmt::formatter<meshcontour::detail::JsonNumber> : fmt::formatter<double> {
+  template <typename Context>
+  auto format(meshcontour::detail::JsonNumber number, Context& context) const {
+    if (std::isfinite(number.value)) return fmt::formatter<double>::format(number.value, context);
+    return fmt::format_to(context.out(), "null");
+  }
+};

@@ -15,10 +15,11 @@ void write_loops(const Result& result, TextWriter& out) {
     for (std::size_t p = 0; p < patches.size(); ++p) {
       for (std::size_t l = 0; l < patches[p].loops.size(); ++l) {
         const BoundaryLoop& loop = patches[p].loops[l];
+        const std::string head = fmt::format("{},{},{},{}", id, p + 1, l + 1, loop.closed ? 1 : 0);
         for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
           const Point& point = shell.points[loop.vertices[i]];
-          out.print("{},{},{},{},{},{},{},{},{}\n", id, p + 1, l + 1, loop.closed ? 1 : 0, i,
-                    loop.vertices[i], point.x(), point.y(), point.z());
+          out.compiled(FMT_COMPILE("{},{},{},{},{},{}\n"), head, i, loop.vertices[i], point.x(), point.y(),
+                       point.z());
         }
       }
     }
@@ -35,7 +36,7 @@ void write_segment(const Segment& segment, TextWriter& out) {
   } else {
     out.print("{},,,", type_name(curve));
   }
-  out.print("{},{},{},{},{},{},", start.x(), start.y(), start.z(), end.x(), end.y(), end.z());
+  out.compiled(FMT_COMPILE("{},{},{},{},{},{},"), start.x(), start.y(), start.z(), end.x(), end.y(), end.z());
   if (arc != nullptr) out.print("{}", arc->radius);
   out.print(",{}\n", segment.deviation);
 }

@@ -1,7 +1,7 @@
 #include "write/dxf_file.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 
 #include "base/utf8.hpp"
 
@@ -173,9 +173,11 @@ void DxfFile::tags(std::string_view pairs) {
 }
 
 void DxfFile::real(int code, double number) {
-  const std::string text = fmt::format("{}", number);
+  std::array<char, 32> digits;
+  char* end = fmt::format_to(digits.data(), FMT_COMPILE("{}"), number);
+  const std::string_view text(digits.data(), static_cast<std::size_t>(end - digits.data()));
   const bool whole = text.find_first_of(".e") == text.npos;  // some readers tell reals by their point
-  out_.print("{}\n{}{}\n", code, text, whole ? ".0" : "");
+  out_.compiled(FMT_COMPILE("{}\n{}{}\n"), code, text, whole ? ".0" : "");
 }
 
 void DxfFile::point(int code, const Point& p) {

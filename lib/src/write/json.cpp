@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "base/escape.hpp"
 #include "base/text_writer.hpp"
 #include "write/drawing.hpp"
@@ -6,6 +8,8 @@
 
 namespace meshcontour::detail {
 namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::infinity();  // prints as null
 
 // Commas between the elements of one list.
 class Separator {
@@ -17,13 +21,13 @@ class Separator {
 };
 
 void write_vector(const Vector& v, TextWriter& out) {
-  out.print("[{},{},{}]", json_number(v.x()), json_number(v.y()), json_number(v.z()));
+  out.compiled(FMT_COMPILE("[{},{},{}]"), JsonNumber{v.x()}, JsonNumber{v.y()}, JsonNumber{v.z()});
 }
 
 void write_numbers(std::span<const double> numbers, TextWriter& out) {
   Separator separator;
   out.text("[");
-  for (const double number : numbers) out.print("{}{}", separator(), json_number(number));
+  for (const double number : numbers) out.compiled(FMT_COMPILE("{}{}"), separator(), JsonNumber{number});
   out.text("]");
 }
 
@@ -37,14 +41,14 @@ void write_shape(const LineSegment&, TextWriter&) {}
 void write_shape(const CircularArc& arc, TextWriter& out) {
   write_named_vector("center", arc.center, out);
   write_named_vector("axis", arc.axis, out);
-  out.print(",\"radius\":{},\"angle\":{}", json_number(arc.radius), json_number(arc.angle));
+  out.print(",\"radius\":{},\"angle\":{}", JsonNumber{arc.radius}, JsonNumber{arc.angle});
 }
 
 void write_shape(const EllipticalArc& arc, TextWriter& out) {
   write_named_vector("center", arc.center, out);
   write_named_vector("axis", arc.axis, out);
   write_named_vector("major", arc.major, out);
-  out.print(",\"ratio\":{},\"angle\":{}", json_number(arc.ratio), json_number(arc.angle));
+  out.print(",\"ratio\":{},\"angle\":{}", JsonNumber{arc.ratio}, JsonNumber{arc.angle});
 }
 
 void write_shape(const BSplineCurve& curve, TextWriter& out) {
@@ -78,7 +82,7 @@ void write_segments(const Contour* contour, TextWriter& out) {
     out.print("{}{{\"type\":\"{}\",\"from\":{},\"to\":{}", separator(), type_name(segment.curve),
               segment.from, segment.to);
     write_ends(segment.curve, out);
-    out.print(",\"deviation\":{}}}", json_number(segment.deviation));
+    out.print(",\"deviation\":{}}}", JsonNumber{segment.deviation});
   }
   out.text("]");
 }
@@ -101,7 +105,7 @@ void write_model(const Result& result, TextWriter& out) {
       "\"metres_per_unit\":{}}},\n",
       json_quoted(result.model.name), counts.shells, counts.instances, counts.patches, counts.vertices,
       counts.triangles,
-      result.model.metres_per_unit > 0 ? json_number(result.model.metres_per_unit) : "null");
+      JsonNumber{result.model.metres_per_unit > 0 ? result.model.metres_per_unit : kUnknown});
   out.print("\"boundary\":{{\"edges\":{},\"vertices\":{},\"loops\":{},\"extractor\":{}}},\n",
             counts.boundary_edges, counts.boundary_vertices, counts.loops, json_quoted(result.extractor));
 }
@@ -125,9 +129,9 @@ void write_loops(const Result& result, std::size_t s, std::size_t p, TextWriter&
     const Contour* contour = find_contour(result.contours, s, p, l);
     out.print("{}\n {{\"loop\":{},\"vertices\":{},\"closed\":{},\"length\":{},\"segments\":", separator(),
               l + 1, loops[l].vertices.size(), loops[l].closed,
-              json_number(polygon_length(result.model.shells[s], loops[l])));
+              JsonNumber{polygon_length(result.model.shells[s], loops[l])});
     write_segments(contour, out);
-    out.print(",\"deviation\":{}{}}}", contour != nullptr ? json_number(contour->deviation) : "null",
+    out.print(",\"deviation\":{}{}}}", JsonNumber{contour != nullptr ? contour->deviation : kUnknown},
               contour != nullptr && contour->fallback ? ",\"fallback\":true" : "");
   }
 }

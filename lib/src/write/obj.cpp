@@ -18,7 +18,7 @@ class ObjWriter {
   void finish() { out_.flush(); }
 
  private:
-  void write_point(const Point& p) { out_.print("v {} {} {}\n", p.x(), p.y(), p.z()); }
+  void write_point(const Point& p) { out_.compiled(FMT_COMPILE("v {} {} {}\n"), p.x(), p.y(), p.z()); }
   void write_bspline(const BSplineCurve& curve);
 
   TextWriter out_;
@@ -30,7 +30,7 @@ void ObjWriter::write_polyline(const Chain& chain) {
   out_.print("o {}\n", one_word(chain.name));
   for (const Point& p : points) write_point(p);
   out_.text("l");
-  for (std::size_t i = 1; i <= points.size(); ++i) out_.print(" {}", vertices_ + i);
+  for (std::size_t i = 1; i <= points.size(); ++i) out_.compiled(FMT_COMPILE(" {}"), vertices_ + i);
   if (chain.closed) out_.print(" {}", vertices_ + 1);
   out_.text("\n");
   vertices_ += points.size();
@@ -42,16 +42,17 @@ void ObjWriter::write_bspline(const BSplineCurve& curve) {
   for (std::size_t i = 0; i < curve.control_points.size(); ++i) {
     const Point& p = curve.control_points[i];
     if (rational) {
-      out_.print("v {} {} {} {}\n", p.x(), p.y(), p.z(), curve.weights[i]);
+      out_.compiled(FMT_COMPILE("v {} {} {} {}\n"), p.x(), p.y(), p.z(), curve.weights[i]);
     } else {
       write_point(p);
     }
   }
   const auto [begin, end] = curve.domain();
   out_.print("cstype {}bspline\ndeg {}\ncurv {} {}", rational ? "rat " : "", curve.degree, begin, end);
-  for (std::size_t i = 1; i <= curve.control_points.size(); ++i) out_.print(" {}", vertices_ + i);
+  for (std::size_t i = 1; i <= curve.control_points.size(); ++i)
+    out_.compiled(FMT_COMPILE(" {}"), vertices_ + i);
   out_.text("\nparm u");
-  for (const double knot : curve.knots) out_.print(" {}", knot);
+  for (const double knot : curve.knots) out_.compiled(FMT_COMPILE(" {}"), knot);
   out_.text("\nend\n");
   vertices_ += curve.control_points.size();
 }

@@ -5,11 +5,11 @@
 #include <numbers>
 
 #include "base/text_writer.hpp"
+#include "base/timestamp.hpp"
 #include "meshcontour/version.hpp"
 #include "write/drawing.hpp"
 #include "write/sampling.hpp"
 #include "write/step_text.hpp"
-#include "base/timestamp.hpp"
 #include "write/units.hpp"
 #include "write/writers.hpp"
 
@@ -67,16 +67,18 @@ std::string id_list(const std::vector<Id>& ids) {
 std::string real_list(const std::vector<double>& values) {
   std::string out;
   for (const double value : values)
-    fmt::format_to(std::back_inserter(out), "{}{}", out.empty() ? "" : ",", step_real(value));
+    fmt::format_to(std::back_inserter(out), "{}{}", out.empty() ? "" : ",", StepReal{value});
   return out;
 }
 
 Id StepWriter::point(const Point& p) {
-  return entity("CARTESIAN_POINT('',({},{},{}))", step_real(p.x()), step_real(p.y()), step_real(p.z()));
+  out_.compiled(FMT_COMPILE("#{}=CARTESIAN_POINT('',{});\n"), ++last_, StepVector{p});
+  return last_;
 }
 
 Id StepWriter::direction(const Vector& v) {
-  return entity("DIRECTION('',({},{},{}))", step_real(v.x()), step_real(v.y()), step_real(v.z()));
+  out_.compiled(FMT_COMPILE("#{}=DIRECTION('',{});\n"), ++last_, StepVector{v});
+  return last_;
 }
 
 Id StepWriter::frame(const Point& origin, const Vector& axis, const Vector& reference) {
@@ -87,7 +89,7 @@ Id StepWriter::frame(const Point& origin, const Vector& axis, const Vector& refe
 Id StepWriter::trimmed(Id basis, const Curve& curve, double first, double last) {
   const Id start = point(start_of(curve)), end = point(end_of(curve));
   return entity("TRIMMED_CURVE('',#{},(#{},PARAMETER_VALUE({})),(#{},PARAMETER_VALUE({})),.T.,.PARAMETER.)",
-                basis, start, step_real(first), end, step_real(last));
+                basis, start, StepReal{first}, end, StepReal{last});
 }
 
 Id StepWriter::curve(const LineSegment& line, const std::string& name) {
@@ -100,7 +102,7 @@ Id StepWriter::curve(const LineSegment& line, const std::string& name) {
 
 Id StepWriter::curve(const CircularArc& arc, const std::string& name) {
   const Id at = frame(arc.center, arc.axis, (arc.start - arc.center).normalized());
-  const Id basis = entity("CIRCLE({},#{},{})", step_string(name), at, step_real(arc.radius));
+  const Id basis = entity("CIRCLE({},#{},{})", step_string(name), at, StepReal{arc.radius});
   return arc.full() ? basis : trimmed(basis, arc, 0, arc.angle);
 }
 
@@ -108,7 +110,7 @@ Id StepWriter::curve(const EllipticalArc& arc, const std::string& name) {
   const double major = arc.major.norm();
   const Id at = frame(arc.center, arc.axis, arc.major / major);
   const Id basis =
-      entity("ELLIPSE({},#{},{},{})", step_string(name), at, step_real(major), step_real(arc.ratio * major));
+      entity("ELLIPSE({},#{},{},{})", step_string(name), at, StepReal{major}, StepReal{arc.ratio * major});
   if (arc.full()) return basis;
   const double first = arc.start_parameter(), last = first + arc.angle;
   return trimmed(basis, arc, first, last > kTurn ? last - kTurn : last);
@@ -187,7 +189,7 @@ Id StepWriter::length_unit(double metres_per_unit) {
   if (!prefix.empty()) return entity("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT({},.METRE.))", prefix);
   const Id metre = entity("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT($,.METRE.))");
   const Id factor =
-      entity("LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE({}),#{})", step_real(metres_per_unit), metre);
+      entity("LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE({}),#{})", StepReal{metres_per_unit}, metre);
   const Id exponents = entity("DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.)");
   return entity("(CONVERSION_BASED_UNIT('{}',#{})LENGTH_UNIT()NAMED_UNIT(#{}))", unit_name(metres_per_unit),
                 factor, exponents);
@@ -225,7 +227,7 @@ void StepWriter::context(const Model& model) {
   const Id solid_angle = entity("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())");
   const Id accuracy = entity(
       "UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE({}),#{},'distance_accuracy_value','confusion accuracy')",
-      step_real(uncertainty(model)), length);
+      StepReal{uncertainty(model)}, length);
   context_ = entity(
       "(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#{}))"
       "GLOBAL_UNIT_ASSIGNED_CONTEXT((#{},#{},#{}))REPRESENTATION_CONTEXT('','3D'))",

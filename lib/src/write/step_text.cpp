@@ -27,12 +27,4 @@ std::string step_string(std::string_view text) {
   return out + '\'';
 }
 
-std::string step_real(double value) {
-  std::string out = fmt::format("{}", value);
-  const std::size_t exponent = out.find('e');
-  if (exponent != out.npos) out[exponent] = 'E';
-  if (out.find('.') == out.npos) out.insert(exponent == out.npos ? out.size() : exponent, 1, '.');
-  return out;
-}
-
 }  // namespace meshcontour::detail

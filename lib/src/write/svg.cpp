@@ -117,14 +117,16 @@ class SvgWriter {
 
 // With as many decimals as the size of the picture asks for, without the zeros at their end.
 void SvgWriter::number(double value) {
-  std::string text = fmt::format("{:.{}f}", value, decimals_);
-  if (decimals_ > 0) text.erase(text.find_last_not_of('0') + 1);
-  if (text.ends_with('.')) text.pop_back();
+  fmt::memory_buffer buffer;
+  fmt::format_to(std::back_inserter(buffer), FMT_COMPILE("{:.{}f}"), value, decimals_);
+  std::string_view text(buffer.data(), buffer.size());
+  if (decimals_ > 0) text = text.substr(0, text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.remove_suffix(1);
   out_.text(text == "-0" ? "0" : text);
 }
 
 void SvgWriter::to(char command, const Point2& p) {
-  if (command != ' ') out_.print("{}", command);
+  if (command != ' ') out_.text({&command, 1});
   number(p.x());
   out_.text(" ");
   number(p.y());

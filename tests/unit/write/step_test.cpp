@@ -7,7 +7,6 @@
 #include "write/step_text.hpp"
 
 using namespace meshcontour;
-using detail::step_real;
 using detail::step_string;
 
 namespace {
@@ -38,7 +37,8 @@ TEST_CASE("step_string: quotes, backslashes and everything beyond ASCII", "[writ
   CHECK(step_string("\xff") == "'\\X2\\FFFD\\X0\\'");
 }
 
-TEST_CASE("step_real: always with a point, and E", "[write][step]") {
+TEST_CASE("StepReal: always with a point, and E", "[write][step]") {
+  const auto step_real = [](double value) { return fmt::format("{}", detail::StepReal{value}); };
   CHECK(step_real(0) == "0.");
   CHECK(step_real(-20) == "-20.");
   CHECK(step_real(0.1) == "0.1");
