@@ -64,7 +64,7 @@ def compare_loops(found, wanted, size):
 
 
 def check_step(path, wanted, size):
-    found, valid, entities = readers.read_step(path)
+    found, valid, entities = readers.read_step(path, truth.millimetres(path.parent))
     require(valid, "OpenCASCADE finds it invalid")
     compare_loops(found, wanted, size)
     return f"{len(found)} loops, {sum(len(f.segments) for f in found)} edges, {entities} entities"

@@ -147,6 +147,13 @@ def polygons(folder):
             for (owner, name), points in loops.items() if owner == shell}
 
 
+def millimetres(folder):
+    """In one unit of the model; an unknown unit is written as a millimetre."""
+    with open(folder / "model.json", encoding="utf-8") as file:
+        metres = json.load(file)["model"]["metres_per_unit"]
+    return 1000 * metres if metres else 1.0
+
+
 def load(path):
     """The expected loops in the order of the geometry files."""
     with open(path, encoding="utf-8") as file:

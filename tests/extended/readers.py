@@ -16,6 +16,12 @@ class FoundSegment:
     radius: float = 0.0
     full: bool = False
     center: np.ndarray = None
+    polygon: np.ndarray = None
+
+    def rescale(self, factor):
+        for name in ("points", "length", "radius", "center", "polygon"):
+            if getattr(self, name) is not None:
+                setattr(self, name, getattr(self, name) * factor)
 
 
 @dataclass
@@ -29,8 +35,9 @@ class FoundLoop:
 
 # --- STEP -----------------------------------------------------------------------------------------------------------
 
-def read_step(path):
-    """One loop a wire or single edge, and whether OpenCASCADE finds the whole shape valid."""
+def read_step(path, millimetres):
+    """One loop a wire or single edge, and whether OpenCASCADE finds the whole shape valid. It reads into millimetres;
+    lengths are given back in the model's unit, which has so many."""
     from OCP.BRepCheck import BRepCheck_Analyzer
     from OCP.IFSelect import IFSelect_ReturnStatus
     from OCP.STEPControl import STEPControl_Reader
@@ -47,6 +54,8 @@ def read_step(path):
     if any(group.ShapeType() != TopAbs_ShapeEnum.TopAbs_COMPOUND for group in groups):
         groups = [shape]  # a set alone is the shape itself
     loops = [step_loop(element) for group in groups for element in children(group)]
+    for segment in (segment for loop in loops for segment in loop.segments):
+        segment.rescale(1 / millimetres)
     return loops, BRepCheck_Analyzer(shape).IsValid(), check.NbEntities()
 
 
