@@ -3,13 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <ctime>
-#include <limits>
 #include <numbers>
 
+#include "bench/bench.hpp"
 #include "meshcontour/sweep.hpp"
 
 using namespace meshcontour;
@@ -41,52 +39,45 @@ SweepScene revolution_scene(std::uint64_t around, std::uint64_t along) {
   return {{profile}, {surface}};
 }
 
-// Seconds of the fastest of three runs.
-template <class Run>
-double best_time(const Run& run) {
-  double best = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) {
-    const std::clock_t start = std::clock();
-    run();
-    best = std::min(best, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
-  }
-  return best;
-}
-
-double plain_loop_time(std::size_t around, std::size_t along) {
+// A loop that evaluates the points of a tube and does nothing else.
+void plain_loop(std::size_t around, std::size_t along) {
   std::vector<Eigen::Vector2d> profile(around);
   for (std::size_t j = 0; j < around; ++j) {
     const double angle = 2 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(around);
     profile[j] = {std::cos(angle), std::sin(angle)};
   }
-  return best_time([&] {
-    std::vector<Point> points;
-    points.reserve(around * along);
-    for (std::size_t i = 0; i < along; ++i) {
-      const Vector normal = Vector(1, static_cast<double>(i), 0).normalized();
-      for (const Eigen::Vector2d& p : profile) {
-        points.push_back(Vector::UnitX() + p.x() * normal + p.y() * Vector::UnitZ());
-      }
+  std::vector<Point> points;
+  points.reserve(around * along);
+  for (std::size_t i = 0; i < along; ++i) {
+    const Vector normal = Vector(1, static_cast<double>(i), 0).normalized();
+    for (const Eigen::Vector2d& p : profile) {
+      points.push_back(Vector::UnitX() + p.x() * normal + p.y() * Vector::UnitZ());
     }
-    if (points.back().hasNaN()) std::abort();
-  });
+  }
+  if (points.back().hasNaN()) std::abort();
 }
 
-bool measure(const char* name, const SweepScene& scene, std::size_t around, std::size_t along) {
+bool has_triangles(const SweepScene& scene, const SweepOptions& options, std::size_t triangles) {
+  return sweep(scene, options).shells.at(0).triangles.size() == triangles;
+}
+
+// False if a mesh is not as large as it should be.
+bool run(std::size_t around, std::size_t along) {
   SweepOptions options;
   options.max_frames = 0;
   options.threads = 1;
-  const Model model = sweep(scene, options);
-  const std::size_t points = model.shells.at(0).points.size(), triangles = model.shells[0].triangles.size();
-  if (triangles != 2 * around * along) return false;
-  const double time = best_time([&] { sweep(scene, options); });
-  const double per_point = 1e9 / static_cast<double>(points);
-  const double plain = plain_loop_time(around, along) * 1e9 / static_cast<double>(around * along);
-  fmt::print(
-      "{{\"case\":\"{}\",\"around\":{},\"along\":{},\"triangles\":{},\"seconds\":{:.3f},\"ns_per_vertex\":{:."
-      "1f},"
-      "\"plain_loop_ns_per_vertex\":{:.1f}}}\n",
-      name, around, along, triangles, time, time * per_point, plain);
+  const SweepScene tube = tube_scene(around, along), revolution = revolution_scene(around, along);
+  const std::size_t triangles = 2 * around * along;
+  if (!has_triangles(tube, options, triangles) || !has_triangles(revolution, options, triangles))
+    return false;
+  std::vector<bench::Contender> contenders = {{"tube", [&] { sweep(tube, options); }},
+                                              {"revolution", [&] { sweep(revolution, options); }},
+                                              {"plain loop", [&] { plain_loop(around, along); }}};
+  bench::alternate(contenders, 3);
+  for (const bench::Contender& contender : contenders) {
+    fmt::print("| {} x {} | {} | {} | {:.3f} | {:.1f} |\n", around, along, triangles, contender.name,
+               contender.median(), contender.median() * 1e9 / static_cast<double>(around * along));
+  }
   return true;
 }
 
@@ -94,10 +85,10 @@ bool measure(const char* name, const SweepScene& scene, std::size_t around, std:
 
 int main() {
   bool right = true;
-  for (const auto& [around, along] : {std::pair{100, 500}, {100, 5000}, {1000, 5000}, {50, 100'000}}) {
-    const auto a = static_cast<std::size_t>(around), b = static_cast<std::size_t>(along);
-    right = measure("tube", tube_scene(a, b), a, b) && right;
-    right = measure("revolution", revolution_scene(a, b), a, b) && right;
-  }
+  fmt::print("| around x along | triangles | what | CPU seconds | ns / vertex |\n|---|---|---|---|---|\n");
+  right = run(100, 500) && right;
+  right = run(100, 5000) && right;
+  right = run(1000, 5000) && right;
+  right = run(50, 100'000) && right;
   return right ? EXIT_SUCCESS : EXIT_FAILURE;
 }

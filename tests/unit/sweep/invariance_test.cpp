@@ -53,7 +53,7 @@ TEST_CASE("sweep: moving a space curve moves the mesh", "[sweep][property]") {
     const Model before = sweep(scene);
     for (Point& p : scene.curves.at(1).control_points) p += shift;
     const Model after = sweep(scene);
-    const double size = bounding_box(after.shells[0]).max().norm();
+    const double size = bounding_box(before.shells[0]).diagonal().norm();
     CHECK(before.shells[0].triangles == after.shells[0].triangles);
     for (std::size_t i = 0; i < before.shells[0].points.size(); ++i) {
       REQUIRE((before.shells[0].points[i] + shift - after.shells[0].points[i]).norm() < 1e-12 * size);
