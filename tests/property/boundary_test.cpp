@@ -160,7 +160,9 @@ TEST_CASE("extract_boundaries: counts of odd edges and vertices are those of cou
     const auto boundary = extract_boundaries(meshes::model({mesh}), {}, diagnostics)[0].patches[0];
     std::map<Index, int> ends;
     for (const auto& [from, to] : boundary.edges) ++ends[from], ++ends[to];
-    if (mesh.triangles.size() < 100) CHECK(boundary.nonmanifold_edges == topology.edges_with_more_than_two());
+    const bool is_exact =
+        mesh.triangles.size() <= 200 || boundary.nonmanifold_edges + boundary.inconsistent_edges > 0;
+    if (is_exact) CHECK(boundary.nonmanifold_edges == topology.edges_with_more_than_two());
     CHECK(boundary.inconsistent_edges == topology.edges_run_twice_the_same_way());
     CHECK(boundary.vertex_count == ends.size());
     const auto crowded = [](const auto& end) { return end.second > 2; };

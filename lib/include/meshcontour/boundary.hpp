@@ -31,7 +31,7 @@ struct PatchBoundary {
   std::vector<BoundaryLoop>
       loops;                     ///< by their smallest edges, whatever the extractor or the number of threads
   std::size_t vertex_count = 0;  ///< boundary vertices, each once
-  std::size_t nonmanifold_edges = 0;   ///< edges with three or more triangles
+  std::size_t nonmanifold_edges = 0;   ///< edges with three or more triangles; see extract_boundaries
   std::size_t unheld_triangles = 0;    ///< `Halfedge` only: triangles that the Surface_mesh could not hold
   std::size_t inconsistent_edges = 0;  ///< edges whose two triangles run the same way
   std::size_t touching_vertices = 0;   ///< vertices with more than two boundary edges
@@ -55,7 +55,11 @@ struct BoundaryOptions {
 
 /// The boundaries of every shell of the model, parallel to Model::shells.
 ///
-/// Linear in the triangles. Findings (open chains, edges with three or more triangles, triangles that a
+/// Linear in the triangles, but for sorting the boundary. Edges with four or more triangles, half of them
+/// running each way, are counted only in patches of up to 200 triangles or with some other odd edge; they are
+/// never boundary.
+///
+/// Findings (open chains, edges with three or more triangles, triangles that a
 /// Surface_mesh could not hold) are appended to `diagnostics`, one line a kind and shell.
 std::vector<ShellBoundary> extract_boundaries(const Model& model, const BoundaryOptions& options,
                                               std::vector<Diagnostic>& diagnostics);

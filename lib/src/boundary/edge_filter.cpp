@@ -76,60 +76,116 @@ void count_in_table(std::span<const Triangle> triangles, EdgeCensus& census) {
 // After this a sum is zero unless some edge at its vertex is not used as often in one direction as in the
 // other. Degenerate triangles add nothing.
 void add_fingerprints(std::span<const Triangle> triangles, std::uint64_t* sums) {
-  for (const auto& [a, b, c] : triangles) {
+  const auto add = [sums](const Triangle& t) {
+    const auto& [a, b, c] = t;
     const std::uint64_t ha = mix(a), hb = mix(b), hc = mix(c);
     sums[a] += hb - hc;
     sums[b] += hc - ha;
     sums[c] += ha - hb;
+  };
+  // Triangles in no order find their sums in slow memory, unless they are asked for ahead of time.
+  const std::size_t ahead = std::min<std::size_t>(16, triangles.size());
+  for (std::size_t i = 0; i + ahead < triangles.size(); ++i) {
+    for (const Index v : triangles[i + ahead]) __builtin_prefetch(sums + v, 1);
+    add(triangles[i]);
   }
+  for (const Triangle& t : triangles.last(ahead)) add(t);
 }
 
-// Edges with both ends marked, as (low, high, runs down) in 32 + 31 + 1 bits.
-std::vector<std::uint64_t> marked_edges(std::span<const Triangle> triangles, const std::uint64_t* sums) {
-  std::vector<std::uint64_t> marked;
-  const auto add = [&](Index from, Index to) {
-    const bool down = from > to;
-    const std::uint64_t low = down ? to : from, high = down ? from : to;
-    marked.push_back(low << 32 | high << 1 | std::uint64_t{down});
-  };
+// An edge as (low, high, runs down) in 32 + 31 + 1 bits.
+void push_edge(Index from, Index to, std::vector<std::uint64_t>& edges) {
+  const bool down = from > to;
+  const std::uint64_t low = down ? to : from, high = down ? from : to;
+  edges.push_back(low << 32 | high << 1 | std::uint64_t{down});
+}
+
+// Appends the edges with both ends marked.
+template <class IsMarked>
+void push_marked_edges(std::span<const Triangle> triangles, const IsMarked& is_marked,
+                       std::vector<std::uint64_t>& edges) {
   for (const Triangle& t : triangles) {
     const auto& [a, b, c] = t;
-    const bool at_a = sums[a] != 0, at_b = sums[b] != 0, at_c = sums[c] != 0;
+    const bool at_a = is_marked(a), at_b = is_marked(b), at_c = is_marked(c);
     if (at_a + at_b + at_c < 2 || degenerate(t)) continue;
-    if (at_a && at_b) add(a, b);
-    if (at_b && at_c) add(b, c);
-    if (at_c && at_a) add(c, a);
+    if (at_a && at_b) push_edge(a, b, edges);
+    if (at_b && at_c) push_edge(b, c, edges);
+    if (at_c && at_a) push_edge(c, a, edges);
   }
-  return marked;
 }
 
-void count_marked(std::span<const Triangle> triangles, std::uint64_t* sums, EdgeCensus& census) {
-  add_fingerprints(triangles, sums);
-  std::vector<std::uint64_t> marked = marked_edges(triangles, sums);
-  std::ranges::sort(marked);
-  for (std::size_t i = 0; i < marked.size();) {
-    const std::uint64_t low = marked[i] >> 32, high = (marked[i] >> 1) & 0x7fffffffu;
+// One bit a vertex: whether its sum is not zero. Returns whether any is set.
+bool pack_marks(std::span<const std::uint64_t> sums, std::vector<std::uint64_t>& marks) {
+  marks.assign((sums.size() + 63) / 64, 0);
+  std::uint64_t any = 0;
+  for (std::size_t word = 0; word < marks.size(); ++word) {
+    const auto part = sums.subspan(64 * word, std::min<std::size_t>(64, sums.size() - 64 * word));
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < part.size(); ++i) bits |= std::uint64_t{part[i] != 0} << i;
+    any |= marks[word] = bits;
+  }
+  return any != 0;
+}
+
+// Fills workspace.edges with those that may be unbalanced, used more often in one direction than in the
+// other.
+void filter_edges(std::span<const Triangle> triangles, std::size_t vertex_bound, Workspace& workspace) {
+  workspace.sums.reserve(vertex_bound);
+  const std::uint64_t* sums = workspace.sums.data();
+  add_fingerprints(triangles, workspace.sums.data());
+  workspace.edges.clear();
+  if (vertex_bound > 4 * triangles.size()) {
+    push_marked_edges(
+        triangles, [sums](Index v) { return sums[v] != 0; }, workspace.edges);
+  } else if (pack_marks({sums, vertex_bound}, workspace.marks)) {
+    // Bits stay in a fast cache where the sums would not.
+    const std::uint64_t* marks = workspace.marks.data();
+    push_marked_edges(
+        triangles, [marks](Index v) { return (marks[v / 64] >> v % 64 & 1) != 0; }, workspace.edges);
+  }
+}
+
+// Sorts edges and counts equal ones.
+void count_edges(std::vector<std::uint64_t>& edges, EdgeCensus& census) {
+  std::ranges::sort(edges);
+  for (std::size_t i = 0; i < edges.size();) {
     Uses uses;
     std::size_t end = i;
-    for (; end < marked.size() && marked[end] >> 1 == marked[i] >> 1; ++end) {
-      (marked[end] & 1 ? uses.down : uses.up) += 1;
+    for (; end < edges.size() && edges[end] >> 1 == edges[i] >> 1; ++end) {
+      (edges[end] & 1 ? uses.down : uses.up) += 1;
     }
-    add_edge(low, high, uses, census);
-    sums[low] = sums[high] = 0;  // every vertex whose sum is not zero is an end of one of these edges
+    add_edge(edges[i] >> 32, edges[i] >> 1 & 0x7fffffffu, uses, census);
     i = end;
   }
 }
 
+void count_filtered(std::span<const Triangle> triangles, std::size_t vertex_bound, Workspace& workspace) {
+  filter_edges(triangles, vertex_bound, workspace);
+  EdgeCensus& census = workspace.census;
+  count_edges(workspace.edges, census);
+  for (const std::uint64_t edge : workspace.edges) {
+    // Every vertex whose sum is not zero is an end of one of these.
+    workspace.sums[edge >> 32] = workspace.sums[edge >> 1 & 0x7fffffffu] = 0;
+  }
+  if (census.nonmanifold + census.inconsistent == 0) return;
+  // A dirty patch: look at the balanced edges too.
+  census = {};
+  workspace.edges.clear();
+  push_marked_edges(
+      triangles, [](Index) { return true; }, workspace.edges);
+  count_edges(workspace.edges, census);
+}
+
 }  // namespace
 
-EdgeCensus census_of_edges(std::span<const Triangle> triangles, std::size_t vertex_bound,
-                           Workspace& workspace) {
-  EdgeCensus census;
+const EdgeCensus& census_of_edges(std::span<const Triangle> triangles, std::size_t vertex_bound,
+                                  Workspace& workspace) {
+  EdgeCensus& census = workspace.census;
+  census.boundary.clear();
+  census.nonmanifold = census.inconsistent = 0;
   if (triangles.size() <= kTableTriangles) {
     count_in_table(triangles, census);
   } else {
-    workspace.sums.reserve(vertex_bound);
-    count_marked(triangles, workspace.sums.data(), census);
+    count_filtered(triangles, vertex_bound, workspace);
   }
   std::ranges::sort(census.boundary);
   return census;

@@ -8,13 +8,6 @@
 
 namespace meshcontour::detail {
 
-/// The edges of a patch that are not shared by just two triangles running in opposite directions.
-struct EdgeCensus {
-  std::vector<BoundaryEdge> boundary;  ///< exactly one triangle; sorted by (from, to)
-  std::size_t nonmanifold = 0;         ///< three or more triangles
-  std::size_t inconsistent = 0;        ///< two triangles that run the same way
-};
-
 /// A 64-bit mix with full avalanche (splitmix64, Steele, Lea & Flood 2014).
 constexpr std::uint64_t mix(std::uint64_t v) {
   v += 0x9e3779b97f4a7c15u;
@@ -27,8 +20,14 @@ constexpr bool degenerate(const Triangle& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
+/// Counts the edges of a patch. The result stays valid until the next call with the same workspace.
+///
+/// Where up to 200 triangles, or some edge found, make it look at all edges, the counts are exact. Otherwise
+/// edges with an even number of triangles, four or more, half of them running each way, are not seen; they
+/// bound nothing.
+///
 /// @param vertex_bound  above every index of the triangles, at most 2^31.
-EdgeCensus census_of_edges(std::span<const Triangle> triangles, std::size_t vertex_bound,
-                           Workspace& workspace);
+const EdgeCensus& census_of_edges(std::span<const Triangle> triangles, std::size_t vertex_bound,
+                                  Workspace& workspace);
 
 }  // namespace meshcontour::detail

@@ -7,6 +7,7 @@
 #include "boundary/loops.hpp"
 #include "boundary/numbering.hpp"
 #include "boundary/patch_runs.hpp"
+#include "boundary/small_patch.hpp"
 #include "meshcontour/boundary.hpp"
 
 namespace meshcontour {
@@ -14,10 +15,11 @@ namespace {
 
 PatchBoundary sorted_boundary(const Shell& shell, std::size_t patch, detail::Workspace& workspace) {
   const auto triangles = shell.patch_triangles(patch);
-  detail::EdgeCensus census = detail::census_of_edges(triangles, shell.points.size(), workspace);
-  detail::LoopTrace trace = detail::trace_loops(triangles, census.boundary, shell.points.size(), workspace);
   PatchBoundary boundary;
-  boundary.edges = std::move(census.boundary);
+  if (detail::small_patch_boundary(triangles, shell.points.size(), workspace, boundary)) return boundary;
+  const detail::EdgeCensus& census = detail::census_of_edges(triangles, shell.points.size(), workspace);
+  detail::LoopTrace trace = detail::trace_loops(triangles, census.boundary, shell.points.size(), workspace);
+  boundary.edges = census.boundary;
   boundary.loops = std::move(trace.loops);
   boundary.vertex_count = trace.vertices;
   boundary.nonmanifold_edges = census.nonmanifold;

@@ -49,13 +49,15 @@ std::vector<Index> simple_successors(std::span<const BoundaryEdge> edges, EdgesB
 std::vector<BoundaryLoop> follow(std::span<const BoundaryEdge> edges, std::vector<Index> next) {
   constexpr Index kDone = std::numeric_limits<Index>::max();
   std::vector<BoundaryLoop> loops;
+  std::vector<Index> path;
   for (std::size_t start = 0; start < edges.size(); ++start) {
     if (next[start] == kDone) continue;
-    BoundaryLoop& loop = loops.emplace_back();
+    path.clear();
     for (std::size_t i = start; next[i] != kDone;) {
-      loop.vertices.push_back(edges[i].from);
+      path.push_back(edges[i].from);
       i = std::exchange(next[i], kDone);
     }
+    loops.push_back({{path.begin(), path.end()}, true});
   }
   return loops;
 }

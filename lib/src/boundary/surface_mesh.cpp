@@ -289,7 +289,7 @@ PatchBoundary halfedge_boundary(const Shell& shell, std::size_t patch, Workspace
   count_vertices(boundary);
   boundary.unheld_triangles = held.unheld.size();
   if (held.rejected_as_given > 0) {
-    const EdgeCensus census = census_of_edges(shell.patch_triangles(patch), shell.points.size(), workspace);
+    const EdgeCensus& census = census_of_edges(shell.patch_triangles(patch), shell.points.size(), workspace);
     boundary.nonmanifold_edges = census.nonmanifold;
     boundary.inconsistent_edges = census.inconsistent;
   }

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "meshcontour/types.hpp"
+#include "meshcontour/boundary.hpp"
 
 namespace meshcontour::detail {
 
@@ -41,10 +41,19 @@ class ZeroedArray {
   std::size_t size_ = 0;
 };
 
+/// The edges of a patch that are not shared by just two triangles running in opposite directions.
+struct EdgeCensus {
+  std::vector<BoundaryEdge> boundary;  ///< exactly one triangle; sorted by (from, to)
+  std::size_t nonmanifold = 0;         ///< three or more triangles
+  std::size_t inconsistent = 0;        ///< two triangles that run the same way
+};
+
 /// Memory that one thread keeps from patch to patch. Cost a patch: the patch alone, however large its shell.
 struct Workspace {
   ZeroedArray<std::uint64_t> sums;  ///< one a vertex of the shell; all zero between patches
   ZeroedArray<Index> slots;         ///< one a vertex of the shell; a hint to be checked, so never reset
+  EdgeCensus census;                ///< of the last patch
+  std::vector<std::uint64_t> edges, marks;  ///< scratch of the edge filter
 };
 
 /// Hands out workspaces to the parts of a parallel loop; at most one a thread is made.
