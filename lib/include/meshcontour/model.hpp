@@ -28,7 +28,7 @@ struct Shell {
   std::vector<Triangle> triangles;
   std::vector<Patch> patches;
   std::vector<Vector> corner_normals;  ///< 3 a triangle, of length 1, or (0,0,0) where unknown; or the whole list empty
-  std::vector<std::array<Index, 2>> creases;  ///< sharp edges that end inside a patch: drawn, but no boundary
+  std::vector<std::array<Index, 2>> creases;  ///< sharp edges inside a patch, sorted: drawn, but no boundary
 
   /// The triangles of one patch.
   std::span<const Triangle> patch_triangles(std::size_t patch) const {

@@ -19,7 +19,7 @@ enum class PatchSource {
 
 struct SegmentOptions {
   PatchSource source = PatchSource::Automatic;
-  double feature_angle = 30 * std::numbers::pi / 180;  ///< an edge is sharp above it, radians in (0, pi)
+  double feature_angle = 30 * std::numbers::pi / 180;  ///< an edge is sharp from it on, radians in (0, pi)
   unsigned threads = 0;                                ///< 0: one per processor
 };
 
@@ -33,7 +33,8 @@ void segment_model(Model& model, const SegmentOptions& options = {});
 /// Cuts a shell into patches along its sharp edges; linear.
 ///
 /// Two triangles are in one patch when a chain of smooth edges joins them. An edge is smooth when exactly two
-/// triangles share it and their planes meet at no more than the angle, whichever way the triangles run.
+/// triangles share it and
+/// their planes meet at less than the angle, by 1e-4 at least, whichever way the triangles run.
 /// Triangles too thin to have a direction of their own (lower than the coordinates' rounding) take their
 /// neighbour's across the longest side. Patches are numbered by their first triangle, and triangles keep
 /// their order within a patch; corner normals follow their triangles. Shell::creases receives the sharp edges

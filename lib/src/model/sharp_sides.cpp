@@ -12,7 +12,11 @@ constexpr std::size_t kTrianglesAtATime = 1 << 14;
 
 // A triangle lower than this part of the model's size has no direction that could be relied on:
 // single-precision coordinates move its corners by about as much.
-constexpr double kThinnestReliable = 1e-6;
+constexpr double kThinnestReliable = 0x1p-22;
+
+// Rounding must not tell apart edges that are folded by just the angle, as those of a chamfer are: all of them count
+// as sharp.
+constexpr double kAngleRounding = 1e-4;  // radians
 
 // Directions of triangles. Lengths are scaled by a power of two, so that no product overflows or vanishes.
 class TriangleNormals {
@@ -113,7 +117,7 @@ void TriangleNormals::find_stand_ins(const Adjacency& adjacency) {
 std::vector<std::uint8_t> smooth_sides(const Shell& shell, const Adjacency& adjacency, double radians,
                                        unsigned threads) {
   const TriangleNormals normals(shell, adjacency, threads);
-  const double cosine = std::cos(radians);
+  const double cosine = std::cos(radians - kAngleRounding);
   std::vector<std::uint8_t> smooth(adjacency.opposite.size(), 0);
   parallel_for(shell.triangles.size(), kTrianglesAtATime, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Vector> near(end - begin);  // most neighbours are near

@@ -12,6 +12,19 @@ bool holds(const PatchSelection& selection, std::size_t patch) {
   return selection.patches.empty() || std::ranges::any_of(selection.patches, in_range);
 }
 
+// Creases stay where triangles stay.
+void keep_creases(Shell& shell) {
+  std::vector<bool> used(shell.creases.size(), false);
+  for (const Triangle& t : shell.triangles) {
+    for (const auto& [a, b] : {std::minmax(t[0], t[1]), std::minmax(t[1], t[2]), std::minmax(t[2], t[0])}) {
+      const auto found = std::ranges::equal_range(shell.creases, std::array<Index, 2>{a, b});
+      if (!found.empty()) used[static_cast<std::size_t>(found.begin() - shell.creases.begin())] = true;
+    }
+  }
+  std::size_t next = 0;
+  std::erase_if(shell.creases, [&](const auto&) { return !used[next++]; });
+}
+
 // Returns the number of patches that stay.
 std::size_t keep_patches(Shell& shell, const PatchSelection& selection) {
   const bool shell_chosen = selection.shell.empty() || selection.shell == shell.id;
@@ -35,6 +48,7 @@ std::size_t keep_patches(Shell& shell, const PatchSelection& selection) {
   }
   shell.triangles.resize(next);
   if (!shell.corner_normals.empty()) shell.corner_normals.resize(3 * next);
+  if (!shell.creases.empty()) keep_creases(shell);
   return kept;
 }
 

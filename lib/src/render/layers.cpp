@@ -102,6 +102,7 @@ void add_edges(const Drawing& drawing, Scene& scene) {
         edges.clear();
       }
     }
+    edges.insert(edges.end(), shell.creases.begin(), shell.creases.end());
     make_unique(edges);
     add_edge_lines(shell, drawing.frames[s], edges, drawing.palette.edges, vertices);
     append(scene, make_batch(drawing, Batch::Kind::Lines, s, 1.2F), vertices);

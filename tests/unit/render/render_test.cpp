@@ -295,3 +295,10 @@ TEST_CASE("render: coordinates beyond reason are refused, not drawn as something
   const Model model = placed({rectangle({-1e200, -1e200, 0}, {1e200, 1e200, 0}, kRed)});
   CHECK_THROWS_WITH(picture(model, small({Layer::Mesh})), Catch::Contains("too large to be drawn"));
 }
+
+TEST_CASE("render: sharp edges inside a patch are drawn with the edges", "[render]") {
+  Model model = placed({rectangle({-5, -5, 0}, {5, 5, 0}, kWhite)});
+  const double without = share_of(model, Layer::Edges, {}, View::Top);
+  model.shells[0].creases = {{0, 2}};
+  CHECK(share_of(model, Layer::Edges, {}, View::Top) > 1.2 * without);
+}
