@@ -61,6 +61,27 @@ TEST_CASE("errors: an output that cannot be created has code 73, one that cannot
   CHECK(run_program({kStud}, {.output = "/dev/full"}).code == 74);
 }
 
+TEST_CASE("errors: without a rasterizer a picture has code 69 and tables are written", "[cli][error]") {
+  const TemporaryFolder folder;
+  const ProgramOptions bare{.folder = folder.path().string(),
+                            .environment = {"MESHCONTOUR_GL_MODULES=" + folder.path().string()}};
+  const ProgramResult picture = run_program({kStud, "-o", "out.png", "-o", "out.csv"}, bare);
+  CHECK(picture.code == 69);
+  CHECK_THAT(picture.errors, Contains("osmesa") && Contains("egl") && Contains("Debian packages"));
+  CHECK(count_lines(picture.errors) == 1);
+  CHECK(folder.names().empty());
+  CHECK(run_program({kStud, "-o", "out.csv"}, bare).code == 0);
+}
+
+TEST_CASE("errors: a picture in which nothing would show is none", "[cli][error]") {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_program({kStud, "-o", "out.png", "-o", "out.csv", "--layers", "annotations"},
+                                           {.folder = folder.path().string()});
+  CHECK(result.code == 65);
+  CHECK_THAT(result.errors, Contains("nothing to draw"));
+  CHECK(folder.names().empty());
+}
+
 TEST_CASE("errors: an old output survives a failing run whole", "[cli][error]") {
   const TemporaryFolder folder;
   write_file(folder / "out.csv", "precious");

@@ -57,6 +57,15 @@ TEST_CASE("outputs: text is the same for every thread count, locale, home and wo
   CHECK(bare.output == plain.output);
 }
 
+TEST_CASE("outputs: a picture is the same without home, locale and a writable folder", "[cli]") {
+  const std::vector<std::string> arguments = {kStud, "-o", "-", "--format", "png", "--size", "160x120"};
+  const ProgramResult plain = run_program(arguments);
+  REQUIRE(plain.code == 0);
+  const ProgramResult bare = run_program(arguments, {.folder = "/proc", .environment = {"PATH=/usr/bin", "LC_ALL=C"}});
+  CHECK(bare.code == 0);
+  CHECK(bare.output == plain.output);
+}
+
 TEST_CASE("outputs: a decimal comma in the locale changes nothing", "[cli]") {
   const TemporaryFolder folder;
   const std::string locale = (folder / "de_DE.UTF-8").string();

@@ -53,21 +53,20 @@ struct RenderOptions {
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba;
-  bool blank = false;  ///< nothing was drawn that differs from the background
 };
 
 /// Draws a model off screen with a software rasterizer, no display needed. Loads the rasterizer on first use.
 ///
 /// Every picture is drawn at twice its size and averaged. Colours are opaque: the alpha of patches is not
-/// used. A picture in which nothing shows gets a warning in `diagnostics` that says why.
+/// used.
 ///
 /// @param boundaries, contours  may be empty when no layer needs them.
 /// @throws Error  Usage if the size is out of range; NoRenderer if no context can be made or its self-test
-/// fails;
-///                OutOfMemory if the picture needs more memory than there is, or the rasterizer runs out of
-///                it; BadData if the model is too large for numbers (beyond 1e150).
+///                fails; OutOfMemory if the picture needs more memory than there is, or the rasterizer runs
+///                out of it; BadData if the model is too large for numbers (beyond 1e150), or if nothing
+///                would show.
 Image render(const Model& model, std::span<const ShellBoundary> boundaries, std::span<const Contour> contours,
-             const RenderOptions& options, std::vector<Diagnostic>& diagnostics);
+             const RenderOptions& options);
 
 /// The axes of a view in model coordinates: rows are the picture's right, its up, and towards the viewer.
 Eigen::Matrix3d view_axes(View view);

@@ -82,7 +82,7 @@ std::vector<std::uint8_t> draw(const Job& job, Run& run) {
   const auto is_picture = [](const OutputRequest& output) { return output.format == OutputFormat::Png; };
   if (std::ranges::none_of(job.outputs, is_picture)) return {};
   const Image image = run.timings.measure(
-      "render", [&] { return render(run.model, run.boundaries, run.contours, job.render, run.diagnostics); });
+      "render", [&] { return render(run.model, run.boundaries, run.contours, job.render); });
   run.timings.count("render", counts_of(run.model, {}, {}).triangles);
   return run.timings.measure("write", [&] { return encode_png(image); });
 }

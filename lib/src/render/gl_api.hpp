@@ -12,8 +12,8 @@
 
 namespace meshcontour::detail {
 
-/// Changes whenever this file or scene.hpp does; a module of another version is refused.
-inline constexpr int kGlApiVersion = 1;
+/// Changes whenever this file, scene.hpp or Image does; a module of another version is refused.
+inline constexpr int kGlApiVersion = 2;
 
 /// The one symbol that a module exports, a `const GlApi* ()` with C linkage.
 inline constexpr const char* kGlApiSymbol = "meshcontour_gl_api";

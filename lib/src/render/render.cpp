@@ -37,13 +37,12 @@ std::size_t drawn_triangles(const Model& model) {
   return count;
 }
 
-void explain_blank(const Scene& scene, std::vector<Diagnostic>& diagnostics) {
-  Diagnostic diagnostic;
-  diagnostic.message = scene.batches.empty()
-                           ? "the picture is blank: the layers asked for have nothing to draw"
-                           : "the picture is blank: all that is drawn lies outside the view or has the "
-                             "background's colour";
-  diagnostics.push_back(std::move(diagnostic));
+[[noreturn]] void refuse_blank(const Scene& scene) {
+  throw Error(ErrorCode::BadData,
+              scene.batches.empty()
+                  ? "the picture would be blank: the layers asked for have nothing to draw"
+                  : "the picture would be blank: all that is drawn lies outside the view, is smaller than a "
+                    "pixel or has the background's colour");
 }
 
 // Draws with the first backend that gives a context.
@@ -58,7 +57,7 @@ Image draw(Scene& scene, const GlSettings& settings, GlBackend wanted) {
     const GlOutcome outcome = api->draw(scene, settings, image);
     switch (outcome.status) {
       case GlOutcome::Status::Done:
-        image.blank = outcome.blank;
+        if (outcome.blank) refuse_blank(scene);
         return image;
       case GlOutcome::Status::OutOfMemory:
         throw Error(ErrorCode::OutOfMemory, outcome.message);
@@ -76,16 +75,14 @@ Image draw(Scene& scene, const GlSettings& settings, GlBackend wanted) {
 }  // namespace detail
 
 Image render(const Model& model, std::span<const ShellBoundary> boundaries, std::span<const Contour> contours,
-             const RenderOptions& options, std::vector<Diagnostic>& diagnostics) {
+             const RenderOptions& options) {
   detail::check(model, boundaries, options);
   detail::GlSettings settings;
   settings.threads = options.threads;
   settings.quick_compile = detail::drawn_triangles(model) <= detail::kQuickTriangles;
   detail::Scene scene = detail::build_scene(model, boundaries, contours, options);
   detail::require_memory(scene, settings.largest_tile);
-  Image image = detail::draw(scene, settings, options.backend);
-  if (image.blank) detail::explain_blank(scene, diagnostics);
-  return image;
+  return detail::draw(scene, settings, options.backend);
 }
 
 }  // namespace meshcontour

@@ -4,6 +4,8 @@
 #include <cstdlib>
 
 #include "meshcontour/fit.hpp"
+#include "render/gl_module.hpp"
+#include "render/scene_builder.hpp"
 #include "solids.hpp"
 #include "support/catch.hpp"
 #include "support/pictures.hpp"
@@ -48,7 +50,10 @@ Eigen::Vector2d middle(const Image& image, const Rgba& color) {
 
 // Pixels that a layer changes.
 double share_of(const Model& model, Layer layer, std::vector<Layer> below, View view) {
-  const Image without = picture(model, small(below, view));
+  const RenderOptions options = small(below, view);
+  const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
+  Image without{options.width, options.height, std::vector<std::uint8_t>(4 * pixels, 255)};
+  if (!below.empty()) without = picture(model, options);
   below.push_back(layer);
   return pictures::differing_share(without, picture(model, small(below, view)), 10);
 }
@@ -71,7 +76,6 @@ TEST_CASE("render: a cylinder fills the picture but for a margin, on the backgro
   const Image image =
       picture(placed({cylinder(34, 10, 15)}), small({Layer::Mesh, Layer::Edges}, View::Front));
   REQUIRE(image.rgba.size() == 4 * 160 * 120);
-  CHECK_FALSE(image.blank);
   CHECK(pixel(image, 2, 2) == kWhite);
   CHECK(is_like(pixel(image, 80, 60), kRed));
   CHECK(pixel(image, 80, 3) == kWhite);
@@ -183,10 +187,10 @@ TEST_CASE("render: points far from the origin keep their shape", "[render]") {
 
 TEST_CASE("render: flat models, and models that are a point, are pictures", "[render]") {
   const Model flat = placed({rectangle({0, 0, 0}, {4, 3, 0}, kRed)});
-  CHECK_FALSE(picture(flat, small({Layer::Mesh})).blank);
-  CHECK_FALSE(picture(flat, small({Layer::Edges}, View::Front)).blank);  // seen along the plane: a line
+  CHECK_NOTHROW(picture(flat, small({Layer::Mesh})));
+  CHECK_NOTHROW(picture(flat, small({Layer::Edges}, View::Front)));  // seen along the plane: a line
   const Model point = placed({rectangle({7, 7, 7}, {7, 7, 7}, kRed)});
-  CHECK(picture(point, small({Layer::Mesh})).blank);
+  CHECK_THROWS_AS(picture(point, small({Layer::Mesh})), Error);
   CHECK_FALSE(picture(point, small({Layer::Wireframe, Layer::Points})).rgba.empty());
 }
 
@@ -222,24 +226,11 @@ TEST_CASE("render: a translucent background has its own colour and alpha", "[ren
   CHECK(std::abs(corner.blue - 50) <= 1);
 }
 
-TEST_CASE("render: a picture in which nothing shows says why", "[render]") {
+TEST_CASE("render: a picture in which nothing shows is refused", "[render]") {
   const Model model = placed({cylinder(8, 1, 1)});
-  std::vector<Diagnostic> diagnostics;
-  SECTION("no such layer") {
-    CHECK(render(model, {}, {}, small({Layer::Annotations}), diagnostics).blank);
-    REQUIRE(diagnostics.size() == 1);
-    CHECK_THAT(diagnostics[0].message, Catch::Contains("nothing to draw"));
-  }
-  SECTION("outside the view") {
-    const Model away = moved(model, Eigen::Affine3d(Eigen::Translation3d(1e4, 0, 0)));
-    CHECK(render(away, {}, {}, small({Layer::Mesh}, View::Report), diagnostics).blank);
-    REQUIRE(diagnostics.size() == 1);
-    CHECK_THAT(diagnostics[0].message, Catch::Contains("outside the view"));
-  }
-  SECTION("something shows") {
-    CHECK_FALSE(render(model, {}, {}, small({Layer::Mesh}), diagnostics).blank);
-    CHECK(diagnostics.empty());
-  }
+  const Model away = moved(model, Eigen::Affine3d(Eigen::Translation3d(1e4, 0, 0)));
+  CHECK_THROWS_WITH(picture(model, small({Layer::Annotations})), Catch::Contains("nothing to draw"));
+  CHECK_THROWS_WITH(picture(away, small({Layer::Mesh}, View::Report)), Catch::Contains("outside the view"));
 }
 
 TEST_CASE("render: the same call gives the same bytes", "[render]") {
@@ -289,6 +280,28 @@ TEST_CASE("render: any size in range is drawn to its last pixel", "[render]") {
   const Rgba center = pixel(image, options.width / 2, options.height / 2);
   CAPTURE(options.width, options.height, int(center.red), int(center.green), int(center.blue));
   CHECK(center.red > center.green + 50);  // partly covered where the picture is a pixel wide
+}
+
+TEST_CASE("render: a picture drawn in tiles shows no seam", "[render]") {
+  const Model model = placed({cylinder(34, 10, 15)});
+  std::vector<Diagnostic> diagnostics;
+  const auto boundaries = extract_boundaries(model, {}, diagnostics);
+  const auto contours = contours_of(model);
+  const RenderOptions options = small({Layer::Mesh, Layer::Edges, Layer::Curves, Layer::Points});
+  const Image whole = render(model, boundaries, contours, options);
+  std::string failure;
+  const detail::GlApi* api = detail::load_gl_module(GlBackend::OSMesa, failure);
+  if (api == nullptr) api = detail::load_gl_module(GlBackend::Egl, failure);
+  REQUIRE(api != nullptr);
+  for (const int largest_tile : {64, 130, 250}) {
+    detail::Scene scene = detail::build_scene(model, boundaries, contours, options);
+    detail::GlSettings settings;
+    settings.largest_tile = largest_tile;
+    Image tiled;
+    REQUIRE(api->draw(scene, settings, tiled).status == detail::GlOutcome::Status::Done);
+    CAPTURE(largest_tile);
+    CHECK(pictures::differing_share(tiled, whole, 3) <= 0.001);
+  }
 }
 
 TEST_CASE("render: coordinates beyond reason are refused, not drawn as something else", "[render][error]") {

@@ -82,7 +82,7 @@ inline Image picture(const Model& model, const RenderOptions& options,
                      std::span<const Contour> contours = {}) {
   std::vector<Diagnostic> diagnostics;
   const auto boundaries = extract_boundaries(model, {}, diagnostics);
-  return render(model, boundaries, contours, options, diagnostics);
+  return render(model, boundaries, contours, options);
 }
 
 inline Rgba pixel(const Image& image, int x, int y) {
