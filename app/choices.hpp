@@ -19,12 +19,13 @@ namespace meshcontour::app {
 template <class T, std::size_t N>
 using Choices = std::array<std::pair<std::string_view, T>, N>;
 
-inline constexpr Choices<Layer, 7> kLayers = {{{"mesh", Layer::Mesh},
+inline constexpr Choices<Layer, 8> kLayers = {{{"mesh", Layer::Mesh},
                                                {"edges", Layer::Edges},
                                                {"curves", Layer::Curves},
                                                {"wireframe", Layer::Wireframe},
                                                {"points", Layer::Points},
                                                {"control", Layer::Control},
+                                               {"frames", Layer::Frames},
                                                {"annotations", Layer::Annotations}}};
 inline constexpr Choices<View, 8> kViews = {{{"iso", View::Iso},
                                              {"front", View::Front},
@@ -60,7 +61,8 @@ inline constexpr Choices<ObjContent, 2> kObjContents = {
     {{"polylines", ObjContent::Polylines}, {"curves", ObjContent::Curves}}};
 inline constexpr Choices<DxfContent, 2> kDxfContents = {
     {{"curves", DxfContent::Curves}, {"polyline", DxfContent::Polyline}}};
-inline constexpr Choices<StepSchema, 2> kStepSchemas = {{{"ap242", StepSchema::Ap242}, {"ap214", StepSchema::Ap214}}};
+inline constexpr Choices<StepSchema, 2> kStepSchemas = {
+    {{"ap242", StepSchema::Ap242}, {"ap214", StepSchema::Ap214}}};
 inline constexpr Choices<EdgeUse, 2> kEdgeUses = {{{"all", EdgeUse::All}, {"unique", EdgeUse::Unique}}};
 
 /// "mesh, edges, curves"

@@ -19,6 +19,7 @@ enum class Layer {
   Wireframe,    ///< all triangle edges
   Points,       ///< boundary vertices
   Control,      ///< control polygons, control points and knots of the fitted contours
+  Frames,       ///< along the model's own curves: normal red, binormal green, tangent blue
   Annotations,  ///< line drawings that come with the model
 };
 

@@ -169,12 +169,13 @@ struct LayerRow {
   void (*add)(const Drawing&, Scene&);
 };
 
-constexpr std::array<LayerRow, 7> kLayers = {{{Layer::Mesh, add_mesh},
+constexpr std::array<LayerRow, 8> kLayers = {{{Layer::Mesh, add_mesh},
                                               {Layer::Edges, add_edges},
                                               {Layer::Curves, add_curves},
                                               {Layer::Control, add_control},
                                               {Layer::Wireframe, add_wireframe},
                                               {Layer::Points, add_points},
+                                              {Layer::Frames, add_frames},
                                               {Layer::Annotations, add_annotations}}};
 
 }  // namespace

@@ -28,9 +28,13 @@ struct Drawing {
 /// Appends the batches of a layer.
 void add_layer(const Drawing& drawing, Layer layer, Scene& scene);
 
-/// Layers that are curves, in a file of their own.
+/// Layers that are curves, each in a file of its own.
 void add_curves(const Drawing& drawing, Scene& scene);
 void add_control(const Drawing& drawing, Scene& scene);
+void add_frames(const Drawing& drawing, Scene& scene);
+
+/// The length at which the axes of curve frames are drawn, model units; 0 when the model has none.
+double frame_axis_length(const Model& model);
 
 /// Whether the frame occurs in the picture.
 bool placed(const Drawing& drawing, std::size_t frame);

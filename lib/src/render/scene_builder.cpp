@@ -23,6 +23,7 @@ class Extent {
     for (const Instance& instance : model.instances) add(instance);
     if (drawn(options, Layer::Annotations)) add_annotations();
     if (drawn(options, Layer::Curves)) add_curves();
+    if (drawn(options, Layer::Frames)) add_frames();
   }
 
   const Box& box() const { return box_; }
@@ -69,6 +70,18 @@ class Extent {
     constexpr int kSamples = 64;  // what bulges between them is less than the picture's margin
     for (const NamedCurve& named : model_.curves) {
       for (int i = 0; i <= kSamples; ++i) add(evaluate(named.curve, static_cast<double>(i) / kSamples));
+    }
+  }
+
+  void add_frames() {
+    const double length = frame_axis_length(model_);
+    for (const NamedCurve& named : model_.curves) {
+      for (const CurveFrame& frame : named.frames) {
+        for (const Vector& axis : {frame.normal, frame.binormal, frame.tangent}) {
+          add(frame.position);
+          add(frame.position + length * axis);
+        }
+      }
     }
   }
 
