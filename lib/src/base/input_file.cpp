@@ -20,7 +20,6 @@ namespace {
 
 constexpr std::size_t kHeadSize = 4096;
 constexpr std::size_t kReadSize = std::size_t{4} << 20;
-constexpr std::size_t kHugePage = std::size_t{2} << 20;
 constexpr std::size_t kPage = 4096;
 
 std::string reason(int error) {
@@ -130,7 +129,7 @@ FileBytes::~FileBytes() {
 }
 
 void FileBytes::grow(std::size_t capacity) {
-  capacity = rounded_up(std::max<std::size_t>(capacity, 1), capacity < kHugePage ? kPage : kHugePage);
+  capacity = rounded_up(std::max<std::size_t>(capacity, 1), kPage);
   if (capacity <= capacity_) return;
   void* data = data_ == nullptr ? ::mmap(nullptr, capacity, PROT_READ | PROT_WRITE,
                                          MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0)
@@ -140,7 +139,6 @@ void FileBytes::grow(std::size_t capacity) {
   }
   data_ = static_cast<char*>(data);
   capacity_ = capacity;
-  advise_huge_pages(data_, capacity_);
 }
 
 InputFile::InputFile(const std::filesystem::path& file)
@@ -161,17 +159,21 @@ InputFile::InputFile(FileDescriptor fd, std::string name, bool descriptor)
     sparse_ = static_cast<std::size_t>(status.st_blocks) * 512 < size_;
   }
   head_.resize(kHeadSize);
+  head_.resize(read_at(head_.data(), head_.size(), 0));
+}
+
+std::size_t InputFile::read_at(char* to, std::size_t size, std::size_t offset) const {
   std::size_t filled = 0;
-  while (filled < head_.size()) {
-    const std::size_t got = read_at(head_.data() + filled, head_.size() - filled, filled);
+  while (filled < size) {
+    const std::size_t got = read_some(to + filled, size - filled, offset + filled);
     if (got == 0) break;
     filled += got;
   }
-  head_.resize(filled);
+  return filled;
 }
 
 // Regular files are read by position; from a pipe the next bytes come, whatever the position.
-std::size_t InputFile::read_at(char* to, std::size_t size, std::size_t offset) const {
+std::size_t InputFile::read_some(char* to, std::size_t size, std::size_t offset) const {
   while (true) {
     const ssize_t got =
         size_ > 0 ? ::pread(fd_.get(), to, size, static_cast<off_t>(offset)) : ::read(fd_.get(), to, size);
@@ -198,7 +200,7 @@ void InputFile::read_regular(FileBytes& bytes) const {
     std::size_t end = size_;
     offset = next_data(offset, end);
     while (offset < end) {
-      const std::size_t got = read_at(bytes.data_ + offset, std::min(end - offset, kReadSize), offset);
+      const std::size_t got = read_some(bytes.data_ + offset, std::min(end - offset, kReadSize), offset);
       if (got == 0) {  // cut meanwhile
         bytes.size_ = offset;
         return;
@@ -216,7 +218,7 @@ void InputFile::read_stream(FileBytes& bytes) const {
   while (true) {
     if (bytes.size_ == bytes.capacity_) bytes.grow(bytes.capacity_ * 2);
     const std::size_t room = std::min(bytes.capacity_ - bytes.size_, kReadSize);
-    const std::size_t got = read_at(bytes.data_ + bytes.size_, room, bytes.size_);
+    const std::size_t got = read_some(bytes.data_ + bytes.size_, room, bytes.size_);
     if (got == 0) return;
     bytes.size_ += got;
   }
@@ -256,6 +258,7 @@ std::optional<InputFile> InputFolder::open(std::string_view name) const {
 }
 
 void advise_huge_pages(void* data, std::size_t size) {
+  constexpr std::size_t kHugePage = std::size_t{2} << 20;
   const auto begin = rounded_up(reinterpret_cast<std::uintptr_t>(data), kHugePage);
   const auto end = (reinterpret_cast<std::uintptr_t>(data) + size) / kHugePage * kHugePage;
   if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);

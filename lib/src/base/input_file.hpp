@@ -73,13 +73,19 @@ class InputFile {
   /// @throws Error  InputOutput if reading fails, OutOfMemory if the file does not fit.
   FileBytes read();
 
+  /// Copies the bytes at an offset of a regular file; as many as there are. May be called from several
+  /// threads.
+  ///
+  /// @throws Error  InputOutput if reading fails.
+  std::size_t read_at(char* to, std::size_t size, std::size_t offset) const;
+
   /// Device and inode: equal for two names of one file.
   std::pair<dev_t, ino_t> identity() const { return identity_; }
 
  private:
   friend class InputFolder;
   InputFile(FileDescriptor fd, std::string name, bool descriptor);
-  std::size_t read_at(char* to, std::size_t size, std::size_t offset) const;
+  std::size_t read_some(char* to, std::size_t size, std::size_t offset) const;
   std::size_t next_data(std::size_t offset, std::size_t& end) const;
   void read_regular(FileBytes& bytes) const;
   void read_stream(FileBytes& bytes) const;

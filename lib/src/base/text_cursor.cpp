@@ -48,22 +48,30 @@ std::optional<double> parse_number(std::string_view word) {
   return word.front() == '-' ? -0.0 : 0.0;
 }
 
+LineEnds count_line_ends(std::string_view part, bool lf_follows) {
+  LineEnds ends;
+  ends.count = static_cast<std::size_t>(std::count(part.begin(), part.end(), '\n'));
+  for (std::size_t i = part.find('\r'); i < part.size(); i = part.find('\r', i + 1)) {
+    const bool before_lf = i + 1 < part.size() ? part[i + 1] == '\n' : lf_follows;
+    if (!before_lf) ++ends.count;
+  }
+  const std::size_t last = part.find_last_of("\n\r");
+  if (last == part.npos) return ends;
+  const bool unfinished = last + 1 == part.size() && part[last] == '\r' && lf_follows;
+  if (!unfinished) ends.last = last + 1;
+  return ends;
+}
+
 void LineCounter::count_to(std::size_t offset) {
-  offset = std::clamp(offset, start_, text_.size());
+  offset = std::min(offset, text_.size());
   if (offset < counted_) {
-    counted_ = line_start_ = start_;
-    line_ = start_line_;
+    counted_ = line_start_ = 0;
+    line_ = 1;
   }
-  const std::string_view between = text_.substr(counted_, offset - counted_);
-  line_ += static_cast<std::size_t>(std::count(between.begin(), between.end(), '\n'));
-  for (std::size_t i = between.find('\r'); i < between.size(); i = between.find('\r', i + 1)) {
-    if (!text_.substr(counted_ + i + 1).starts_with('\n')) ++line_;
-  }
-  const std::size_t last = between.find_last_of("\n\r");
-  const bool found = last != between.npos;
-  const bool inside_crlf =
-      found && last + 1 == between.size() && text_.substr(offset - 1).starts_with("\r\n");
-  if (found && !inside_crlf) line_start_ = counted_ + last + 1;
+  const LineEnds ends =
+      count_line_ends(text_.substr(counted_, offset - counted_), text_.substr(offset).starts_with('\n'));
+  line_ += ends.count;
+  if (ends.last != std::string_view::npos) line_start_ = counted_ + ends.last;
   counted_ = offset;
 }
 

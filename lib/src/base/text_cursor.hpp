@@ -25,13 +25,20 @@ std::optional<T> parse_integer(std::string_view word) {
   return value;
 }
 
-/// The line of an offset, from 1; lines end with LF, CR LF or CR. Counts forward from the last answer, so
-/// that rising offsets cost one pass together.
+/// Line ends (LF, CR LF or CR) in a part of a text.
+struct LineEnds {
+  std::size_t count = 0;
+  std::size_t last = std::string_view::npos;  ///< offset behind the last of them; npos if there is none
+};
+
+/// @param lf_follows  the text goes on with an LF: then a CR at the end of the part does not count.
+LineEnds count_line_ends(std::string_view part, bool lf_follows);
+
+/// The line of an offset, from 1. Counts forward from the last answer, so that rising offsets cost one pass
+/// together.
 class LineCounter {
  public:
-  /// @param start, line  an offset whose line is known; earlier offsets are not asked for.
-  explicit LineCounter(std::string_view text, std::size_t start = 0, std::size_t line = 1)
-      : text_(text), start_(start), start_line_(line), counted_(start), line_(line), line_start_(start) {}
+  explicit LineCounter(std::string_view text) : text_(text) {}
   std::size_t line(std::size_t offset);
   std::size_t column(std::size_t offset);  ///< from 1, in bytes
 
@@ -39,8 +46,7 @@ class LineCounter {
   void count_to(std::size_t offset);
 
   std::string_view text_;
-  std::size_t start_, start_line_;
-  std::size_t counted_, line_, line_start_;
+  std::size_t counted_ = 0, line_ = 1, line_start_ = 0;
 };
 
 /// Reads words and numbers one after the other; every failure names file, line and column.

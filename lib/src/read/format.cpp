@@ -67,7 +67,7 @@ const Format& detect_format(std::string_view head, std::uint64_t size, std::stri
 
 std::span<const Format> formats() {
   static const std::vector<Format> table = {
-      {"webxml", {"xml", "webxml"}, sniff_webxml, read_webxml},
+      {"webxml", {"xml", "webxml"}, sniff_webxml, read_webxml, read_webxml_file},
       {"swept surfaces", {"swp"}, sniff_swp, read_swp},
       {"STL", {"stl"}, sniff_stl, read_stl},
       {"PLY", {"ply"}, sniff_ply, read_ply},

@@ -35,6 +35,8 @@ struct Format {
   Match (*sniff)(std::string_view head, std::uint64_t size);
   /// Gives a model that passes validate(); what it mended is in Model::diagnostics.
   Model (*read)(std::string_view bytes, const ReadContext& context);
+  /// The same for regular files, without reading them as a whole; null: there is no such way.
+  Model (*read_file)(InputFile& file, const ReadContext& context) = nullptr;
 };
 
 /// Every format that can be read; earlier rows win where two match equally well. A new format is one row here

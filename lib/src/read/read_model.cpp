@@ -27,17 +27,20 @@ Model checked(Model model, const ReadContext& context) {
 
 std::vector<std::string> readable_extensions() {
   std::vector<std::string> out;
-  for (const Format& format : formats()) out.insert(out.end(), format.extensions.begin(), format.extensions.end());
+  for (const Format& format : formats())
+    out.insert(out.end(), format.extensions.begin(), format.extensions.end());
   return out;
 }
 
 Model read_model(const std::filesystem::path& file, const ReadOptions& options) {
   InputFile input(file);
   const Format& format = detect_format(input.head(), input.size(), input.name(), formats());
-  const FileBytes bytes = input.read();
   std::optional<InputFolder> folder;
   if (!input.is_descriptor()) folder.emplace(file.parent_path());
   const ReadContext context{input.name(), options, folder ? &*folder : nullptr};
+  if (format.read_file != nullptr && input.size() > 0)
+    return checked(format.read_file(input, context), context);
+  const FileBytes bytes = input.read();
   return checked(format.read(bytes.view(), context), context);
 }
 

@@ -105,12 +105,23 @@ class References {
       std::optional<InputFile> input = context_.folder->open(part.href);
       if (!input)
         throw Error(ErrorCode::InputOutput, "vanished while its model was read", Spot{part.href, 0, 0, ""});
-      const FileBytes bytes = input->read();
-      part.content = read_webxml_file(bytes.view(), input->name(), options, careful_);
+      part.content.emplace(read_part(*input, options));
       check(part);
     } catch (...) {
       part.error = std::current_exception();
     }
+  }
+
+  WebxmlFile read_part(InputFile& input, const ReadOptions& options) const {
+    if (input.size() > 0 && !looks_like_utf16(input.head())) {
+      TextSource source(input);
+      return read_webxml_content(source, input.name(), options, careful_);
+    }
+    const FileBytes bytes = input.read();
+    const std::string text =
+        looks_like_utf16(bytes.view()) ? utf8_from_utf16(bytes.view()) : std::string(bytes.view());
+    TextSource source(text);
+    return read_webxml_content(source, input.name(), options, careful_);
   }
 
   static void check(Part& part) {
@@ -233,8 +244,8 @@ void finish_shells(WebxmlFile& file, Model& model, unsigned threads) {
               spot);
 }
 
-Model read_utf8(std::string_view bytes, const ReadContext& context, bool careful) {
-  WebxmlFile file = read_webxml_file(bytes, context.name, context.options, careful);
+Model read(TextSource& source, const ReadContext& context, bool careful) {
+  WebxmlFile file = read_webxml_content(source, context.name, context.options, careful);
   const WebxmlGraph graph = resolve_references(file);
   check_limits(measure_assembly(graph, file), context.options, context.name);
   References references(file, context, careful);
@@ -253,9 +264,9 @@ Model read_utf8(std::string_view bytes, const ReadContext& context, bool careful
 }
 
 Model read(std::string_view bytes, const ReadContext& context, bool careful) {
-  if (!looks_like_utf16(bytes)) return read_utf8(bytes, context, careful);
-  const std::string text = utf8_from_utf16(bytes);
-  return read_utf8(text, context, careful);
+  const std::string text = looks_like_utf16(bytes) ? utf8_from_utf16(bytes) : std::string();
+  TextSource source(text.empty() ? bytes : text);
+  return read(source, context, careful);
 }
 
 }  // namespace
@@ -269,6 +280,12 @@ Match sniff_webxml(std::string_view head, std::uint64_t) {
 
 Model read_webxml(std::string_view bytes, const ReadContext& context) {
   return read(bytes, context, false);
+}
+
+Model read_webxml_file(InputFile& file, const ReadContext& context) {
+  if (looks_like_utf16(file.head())) return read(file.read().view(), context, false);
+  TextSource source(file);
+  return read(source, context, false);
 }
 
 Model read_webxml_carefully(std::string_view bytes, const ReadContext& context) {

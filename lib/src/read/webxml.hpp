@@ -16,6 +16,9 @@ Match sniff_webxml(std::string_view head, std::uint64_t size);
 ///                placed; NoInput never: parts whose file is missing are left out with one warning.
 Model read_webxml(std::string_view bytes, const ReadContext& context);
 
+/// The same for a regular file, of which only the part at hand is kept in memory.
+Model read_webxml_file(InputFile& file, const ReadContext& context);
+
 /// The same with every body parsed by tinyxml2, for comparison.
 Model read_webxml_carefully(std::string_view bytes, const ReadContext& context);
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 
+#include "base/text_cursor.hpp"
+#include "base/text_source.hpp"
 #include "read/xml_digest.hpp"
 #include "read/xml_scanner.hpp"
 #include "read/xml_words.hpp"
@@ -24,18 +26,21 @@ using Visitor = std::function<void(const XMLElement&, std::size_t line)>;
 // Gives tinyxml2 whole elements of the body, about a chunk at a time.
 class BodyWalk {
  public:
-  BodyWalk(const BodySource& source, Findings& findings)
-      : source_(source), findings_(findings), digest_(source.text, source.begin, source.line) {}
+  BodyWalk(const BodySource& body, Findings& findings)
+      : body_(body), findings_(findings), source_(body.text), digest_(source_, 0, body.line) {}
 
   void visit(const Visitor& visitor) {
-    XmlScanner scanner(source_.text, source_.file, source_.begin, kBodyDepth);
-    begin_chunk(source_.begin);
+    TextWindow window(source_);
+    XmlScanner scanner(window, body_.file, 0, kBodyDepth);
+    begin_chunk(0);
     while (true) {
       const XmlToken token = scanner.next();
-      if (token.begin >= source_.end) break;
-      if (token.kind == XmlToken::Kind::Text || token.kind == XmlToken::Kind::CharacterData)
-        report_text(token);
-      digest_.append(token);
+      if (token.kind == XmlToken::Kind::EndOfFile) break;
+      const std::string_view bytes = window.part(token.begin, token.end);
+      if (token.kind == XmlToken::Kind::Text || token.kind == XmlToken::Kind::CharacterData) {
+        report_text(token.begin, bytes);
+      }
+      digest_.append(token.kind, bytes);
       if (scanner.depth() == kBodyDepth && digest_.text().size() > kChunkSize) {
         end_chunk(visitor);
         begin_chunk(token.end);
@@ -53,26 +58,26 @@ class BodyWalk {
   void end_chunk(const Visitor& visitor) {
     digest_.text() += "</body>";
     tinyxml2::XMLDocument document;
-    parse_digest(document, digest_, source_.file);
+    parse_digest(document, digest_, body_.file);
     for (const XMLElement* e = document.RootElement()->FirstChildElement(); e != nullptr;
          e = e->NextSiblingElement()) {
       visitor(*e, digest_.line(e->GetLineNum()));
     }
   }
 
-  void report_text(const XmlToken& token) {
-    const std::string_view text = source_.text.substr(token.begin, token.end - token.begin);
-    if (token.kind == XmlToken::Kind::Text && xml_words(text).empty()) return;
-    findings_.add("text", [&] {
-      LineCounter lines(source_.text, source_.begin, source_.line);
-      return Diagnostic{Diagnostic::Severity::Note,
-                        "text between elements is not read",
-                        {source_.file, lines.line(token.begin), 0, source_.element}};
+  void report_text(std::size_t offset, std::string_view bytes) {
+    const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
+    if (begin == bytes.npos) return;
+    findings_.note("text", [&] {
+      SourceLines lines(source_, 0, body_.line);
+      return std::pair("text between elements is not read",
+                       Spot{body_.file, lines.line(offset + begin), 0, body_.element});
     });
   }
 
-  const BodySource& source_;
+  const BodySource& body_;
   Findings& findings_;
+  TextSource source_;
   XmlDigest digest_;
 };
 
@@ -179,20 +184,6 @@ bool normals_of(const Place& facet, Findings& findings, std::array<Vector, 3>& n
 }
 
 }  // namespace
-
-std::size_t find_body_end(std::string_view text, const std::string& file, std::size_t begin,
-                          std::size_t depth, std::string_view name) {
-  XmlScanner scanner(text, file, begin, depth);
-  while (true) {
-    const bool outermost = scanner.depth() == depth;
-    const XmlToken token = scanner.next();
-    if (token.kind == XmlToken::Kind::EndOfFile)
-      scanner.fail(token.begin, fmt::format("the file ends inside <{}>", name));
-    if (token.kind != XmlToken::Kind::End || !outermost) continue;
-    if (token.name == name) return token.begin;
-    scanner.fail(token.begin, fmt::format("</{}> where </{}> must come", printable(token.name, 40), name));
-  }
-}
 
 std::vector<Point> parse_points(const BodySource& source, BodyKind kind, Findings& findings) {
   const char* const item = kind == BodyKind::Vertices ? "v" : "p";

@@ -16,22 +16,13 @@ struct FacetData {
   std::vector<Vector> normals;  ///< three a triangle, or empty
 };
 
-/// A body between its tags, and what to say about it.
+/// The text of a body between its tags, and what to say about it.
 struct BodySource {
-  std::string_view text;    ///< the whole file
-  std::size_t begin, end;   ///< offsets in it
-  std::size_t line;         ///< of `begin`
+  std::string_view text;
+  std::size_t line;         ///< of its first byte in the file
   const std::string& file;  ///< for messages
   std::string element;      ///< for messages, e.g. "shell id3"
 };
-
-/// Finds the closing tag of a body of any form, and checks that all is well-formed up to it.
-///
-/// @param depth   open elements, that of the body included.
-/// @return        offset of the closing tag.
-/// @throws Error  BadData with the line if the body is not well-formed.
-std::size_t find_body_end(std::string_view text, const std::string& file, std::size_t begin,
-                          std::size_t depth, std::string_view name);
 
 /// Reads a body of any form through tinyxml2, a few hundred kilobytes at a time: the way for what the scan of
 /// the plain form does not take, with the same result where both apply. Elements that do not belong there are

@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <exception>
-#include <functional>
 #include <limits>
 #include <utility>
 
-#include "base/input_file.hpp"
+#include "base/text_source.hpp"
 #include "meshcontour/parallel.hpp"
 #include "read/webxml_body.hpp"
 
@@ -37,8 +36,12 @@ struct BodyState {
 
 class ContentReader {
  public:
-  ContentReader(std::string_view text, WebxmlFile& file, const ReadOptions& options)
-      : text_(text), file_(file), options_(options), bodies_(file.outline.bodies), states_(bodies_.size()) {}
+  ContentReader(const TextSource& source, WebxmlFile& file, const ReadOptions& options)
+      : source_(source),
+        file_(file),
+        options_(options),
+        bodies_(file.outline.bodies),
+        states_(bodies_.size()) {}
 
   // False if the ends of bodies were guessed wrong; then nothing is valid.
   bool run() {
@@ -66,7 +69,7 @@ class ContentReader {
     check_limit();
     for (std::size_t s = 0; s < file_.shells.size(); ++s) allocate_shell(s);
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      if (bodies_[b].kind != BodyKind::Facets) allocate_filled(states_[b].points, plain_items(b));
+      if (bodies_[b].kind != BodyKind::Facets) states_[b].points.resize(plain_items(b));
     }
   }
 
@@ -93,16 +96,8 @@ class ContentReader {
       triangles += plain_items(*facets.body);
       if (bodies_[*facets.body].plain) normals += bodies_[*facets.body].outline.normals;
     }
-    allocate_filled(file_.shells[s].triangles, triangles);
-    if (normals > 0) allocate_filled(file_.shells[s].corner_normals, 3 * triangles);
-  }
-
-  // The pages are touched when the scan fills them.
-  template <typename T>
-  static void allocate_filled(std::vector<T>& list, std::size_t count) {
-    list.reserve(count);
-    advise_huge_pages(list.data(), count * sizeof(T));
-    list.resize(count);
+    file_.shells[s].triangles.resize(triangles);
+    if (normals > 0) file_.shells[s].corner_normals.resize(3 * triangles);
   }
 
   void scan() {
@@ -123,37 +118,32 @@ class ContentReader {
   }
 
   void scan(Job& job) {
-    const WebxmlBody& body = bodies_[job.body];
-    const BodyPiece& piece = body.outline.pieces[job.piece];
+    const BodyPiece& piece = bodies_[job.body].outline.pieces[job.piece];
+    std::string buffer = buffers_.take();
+    job.taken = take_piece(job, piece, piece_text(source_, piece, buffer));
+    buffers_.give_back(std::move(buffer));
+  }
+
+  bool take_piece(Job& job, const BodyPiece& piece, std::string_view text) {
+    const BodyKind kind = bodies_[job.body].kind;
     BodyState& state = states_[job.body];
-    if (body.kind != BodyKind::Facets) {
-      job.taken = scan_points(text_, piece, body.kind,
-                              std::span(state.points).subspan(piece.first_item, piece.items));
-      return;
+    if (kind != BodyKind::Facets) {
+      return scan_points(text, kind, std::span(state.points).subspan(piece.first_item, piece.items));
     }
     Shell& shell = file_.shells[state.shell];
     const std::size_t first = state.first_triangle + piece.first_item;
-    const auto normals = shell.corner_normals.empty()
-                             ? std::span<Vector>()
-                             : std::span(shell.corner_normals).subspan(3 * first, 3 * piece.items);
-    job.taken = scan_facets(text_, piece, std::span(shell.triangles).subspan(first, piece.items), normals,
-                            job.highest);
+    std::span<Vector> normals;
+    if (!shell.corner_normals.empty()) {
+      normals = std::span(shell.corner_normals).subspan(3 * first, 3 * piece.items);
+    }
+    return scan_facets(text, std::span(shell.triangles).subspan(first, piece.items), normals, job.highest);
   }
 
   // A body that was scanned holds no markup but its own: its end is right. The others are parsed to their
   // end.
   bool ends_are_right() const {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      if (states_[b].scanned) continue;
-      try {
-        constexpr std::size_t kDepth = 3;
-        if (find_body_end(text_, file_.name, bodies_[b].begin, kDepth, body_name(bodies_[b].kind)) !=
-            bodies_[b].end) {
-          return false;
-        }
-      } catch (const Error&) {
-        return false;  // the careful way says what is wrong
-      }
+      if (!states_[b].scanned && !ends_as_outlined(source_, bodies_[b], file_.name)) return false;
     }
     return true;
   }
@@ -161,7 +151,7 @@ class ContentReader {
   // Bodies of one kind that the scan did not take. The first failure in file order is the one reported.
   void parse_rest(BodyKind kind) {
     std::vector<std::size_t> rest;
-    LineCounter lines(text_);
+    SourceLines lines(source_);
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       if (bodies_[b].kind != kind || states_[b].scanned) continue;
       states_[b].line = lines.line(bodies_[b].begin);
@@ -181,11 +171,12 @@ class ContentReader {
   void parse(std::size_t b) {
     BodyState& state = states_[b];
     const WebxmlBody& body = bodies_[b];
+    std::string buffer = buffers_.take();
     try {
       const std::string element = body.kind == BodyKind::Polyline
                                       ? "polyline"
                                       : element_text("shell", file_.document.shells[state.shell].id);
-      const BodySource source{text_, body.begin, body.end, state.line, file_.name, element};
+      const BodySource source{source_.view(body.begin, body.end, buffer), state.line, file_.name, element};
       if (body.kind == BodyKind::Facets) {
         state.facets = parse_facets(source, file_.shells[state.shell].points.size(), state.findings);
       } else {
@@ -194,6 +185,7 @@ class ContentReader {
     } catch (...) {
       state.error = std::current_exception();
     }
+    buffers_.give_back(std::move(buffer));
   }
 
   // Annotations are no reason to refuse a model.
@@ -280,30 +272,37 @@ class ContentReader {
     }
   }
 
-  std::string_view text_;
+  const TextSource& source_;
+  BufferPool buffers_;
   WebxmlFile& file_;
   const ReadOptions& options_;
   const std::vector<WebxmlBody>& bodies_;
   std::vector<BodyState> states_;
 };
 
-WebxmlFile outlined(std::string_view text, const std::string& name, bool careful) {
+WebxmlFile outlined(const TextSource& source, const std::string& name, bool careful) {
   Findings findings;
-  WebxmlOutline outline = outline_webxml(text, name, careful, findings);
+  WebxmlOutline outline = outline_webxml(source, name, careful, findings);
   WebxmlDocument document = read_document(outline, name, findings);
   return {name, std::move(outline), std::move(document), {}, {}, std::move(findings)};
 }
 
 }  // namespace
 
-WebxmlFile read_webxml_file(std::string_view text, const std::string& name, const ReadOptions& options,
-                            bool careful) {
+WebxmlFile read_webxml_content(TextSource& source, const std::string& name, const ReadOptions& options,
+                               bool careful) {
+  Findings padding;
+  cut_padding(source, name, padding);
   if (!careful) {
-    WebxmlFile file = outlined(text, name, false);
-    if (ContentReader(text, file, options).run()) return file;
+    WebxmlFile file = outlined(source, name, false);
+    if (ContentReader(source, file, options).run()) {
+      file.findings.merge(padding);
+      return file;
+    }
   }
-  WebxmlFile file = outlined(text, name, true);
-  ContentReader(text, file, options).run();
+  WebxmlFile file = outlined(source, name, true);
+  ContentReader(source, file, options).run();
+  file.findings.merge(padding);
   return file;
 }
 

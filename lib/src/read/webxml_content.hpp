@@ -24,14 +24,13 @@ struct WebxmlFile {
 /// Reads a file, but none that it names. The bodies are read in parallel; the result does not depend on the
 /// threads.
 ///
-/// @param text     UTF-8 or ISO-8859-1; may be dropped once this returns, except for messages that need a
-/// line of
-///                 `outline.digest`.
+/// @param source   UTF-8 or ISO-8859-1; must live as long as messages may need a line of `outline.digest`.
+///                 Padding is cut off.
 /// @param careful  reads every body through tinyxml2, as for comparison; otherwise only those that the scan
-/// of the
-///                 plain form does not take.
+/// of
+///                 the plain form does not take.
 /// @throws Error   BadData with the line; OutOfMemory if it holds more triangles than the limit.
-WebxmlFile read_webxml_file(std::string_view text, const std::string& name, const ReadOptions& options,
-                            bool careful);
+WebxmlFile read_webxml_content(TextSource& source, const std::string& name, const ReadOptions& options,
+                               bool careful);
 
 }  // namespace meshcontour::detail

@@ -7,8 +7,6 @@
 #include <optional>
 
 #include "read/encoding.hpp"
-#include "read/webxml_body.hpp"
-#include "read/xml_words.hpp"
 
 namespace meshcontour::detail {
 namespace {
@@ -20,7 +18,7 @@ constexpr std::size_t kShortestItem = std::string_view("<f v=\"0 0 0\"/>").size(
 constexpr std::size_t kPaddingLimit = std::size_t{1} << 20;
 
 // The body that a start tag opens, if it opens one: `open` ends with the tag's own name.
-std::optional<BodyKind> body_kind(const std::vector<std::string_view>& open) {
+std::optional<BodyKind> body_kind(const std::vector<std::string>& open) {
   const std::size_t depth = open.size();
   if (depth < 2 || depth > 3) return std::nullopt;
   const std::string_view parent = open[depth - 2], name = open[depth - 1];
@@ -31,19 +29,33 @@ std::optional<BodyKind> body_kind(const std::vector<std::string_view>& open) {
   return std::nullopt;
 }
 
+// The end tag of the element that the scanner is in.
+XmlToken scan_to_end_tag(XmlScanner& scanner) {
+  const std::size_t depth = scanner.depth();
+  while (true) {
+    const XmlToken token = scanner.next();
+    if (token.kind == Kind::End && scanner.depth() < depth) return token;
+  }
+}
+
 class Outliner {
  public:
-  Outliner(std::string_view text, const std::string& file, bool careful, Findings& findings)
-      : text_(text), file_(file), careful_(careful), findings_(findings), scanner_(text, file) {}
+  Outliner(const TextSource& source, const std::string& file, bool careful, Findings& findings)
+      : file_(file),
+        careful_(careful),
+        findings_(findings),
+        window_(source),
+        scanner_(window_, file),
+        outline_{XmlDigest(source), {}, false} {}
 
   WebxmlOutline run() {
     for (XmlToken token = scanner_.next(); token.kind != Kind::EndOfFile; token = scanner_.next()) {
-      if (token.kind == Kind::Declaration)
-        encoding_ = declared_encoding(text_.substr(token.begin, token.end - token.begin));
-      if (token.kind == Kind::Text || token.kind == Kind::CharacterData) report_text(token);
-      if (scanner_.depth() <= 1 && (token.kind == Kind::Start || token.kind == Kind::Empty))
-        check_root(token);
-      outline_.digest.append(token);
+      const std::string_view bytes = window_.part(token.begin, token.end);
+      if (token.kind == Kind::Declaration) encoding_ = declared_encoding(bytes);
+      if (token.kind == Kind::Text || token.kind == Kind::CharacterData) report_text(token.begin, bytes);
+      const bool tag = token.kind == Kind::Start || token.kind == Kind::Empty;
+      if (tag && scanner_.depth() <= 1) check_root(token);
+      outline_.digest.append(token.kind, bytes);
       if (token.kind != Kind::Start) continue;
       if (const auto kind = body_kind(scanner_.open_elements())) cut_body(*kind, token.end);
     }
@@ -57,36 +69,38 @@ class Outliner {
     root_seen_ = true;
     constexpr std::array<std::string_view, 4> kRoots = {"step-assembly", "assembly", "shell", "annotation"};
     if (std::ranges::find(kRoots, token.name) != kRoots.end()) return;
-    scanner_.fail(token.begin,
-                  fmt::format("not a webxml file: the document element is <{}>, not <step-assembly>",
-                              printable(token.name, 40)));
+    scanner_.fail_at(token.begin,
+                     fmt::format("not a webxml file: the document element is <{}>, not <step-assembly>",
+                                 printable(token.name, 40)));
   }
 
   void cut_body(BodyKind kind, std::size_t begin) {
     WebxmlBody body{kind, begin, begin, false, {}};
     std::optional<BodyOutline> guess;
-    if (!careful_) guess = outline_body(text_, begin, kind);
+    if (!careful_) guess = outline_body(window_, begin, kind);
     if (guess) {
       outline_.guessed = true;
       body.end = guess->end;
       body.plain = guess->items <= (guess->end - begin) / kShortestItem;
       body.outline = std::move(*guess);
+      scanner_.skip_to(body.end);
+      outline_.digest.leave_out(std::to_string(outline_.bodies.size()), body.end);
     } else {
       careful_ = true;  // or every later body might be searched to the end of the file
-      body.end = find_body_end(text_, file_, begin, scanner_.depth(), body_name(kind));
+      const XmlToken closing = scan_to_end_tag(scanner_);
+      body.end = closing.begin;
+      outline_.digest.leave_out(std::to_string(outline_.bodies.size()), body.end);
+      outline_.digest.append(closing.kind, window_.part(closing.begin, closing.end));
     }
-    outline_.digest.leave_out(std::to_string(outline_.bodies.size()), body.end);
-    scanner_.skip_to(body.end);
     outline_.bodies.push_back(std::move(body));
   }
 
-  void report_text(const XmlToken& token) {
-    const std::string_view content = text_.substr(token.begin, token.end - token.begin);
-    if (token.kind == Kind::Text && xml_words(content).empty()) return;
+  void report_text(std::size_t offset, std::string_view bytes) {
+    const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
+    if (begin == bytes.npos) return;
     findings_.note("text", [&] {
-      LineCounter lines(text_);
-      const std::size_t begin = token.begin + content.find_first_not_of(" \t\r\n");
-      return std::pair("text between elements is not read", Spot{file_, lines.line(begin), 0, ""});
+      SourceLines lines(window_.source());
+      return std::pair("text between elements is not read", Spot{file_, lines.line(offset + begin), 0, ""});
     });
   }
 
@@ -114,56 +128,61 @@ class Outliner {
     text = utf8_from_latin1(text);
   }
 
-  std::string_view text_;
   const std::string& file_;
   bool careful_;
   Findings& findings_;
+  TextWindow window_;
   XmlScanner scanner_;
-  WebxmlOutline outline_{XmlDigest(text_), {}, false};
-  std::string_view encoding_;
+  WebxmlOutline outline_;
+  std::string encoding_;
   bool root_seen_ = false;
 };
 
-// Some downloads are padded with zero bytes.
-std::string_view without_padding(std::string_view text, const std::string& file, Findings& findings) {
-  const std::string_view tail = text.substr(text.size() - std::min(text.size(), kPaddingLimit));
+}  // namespace
+
+void cut_padding(TextSource& source, const std::string& file, Findings& findings) {
+  std::string buffer;
+  const std::size_t size = source.size();
+  if (!source.view(size - std::min<std::size_t>(size, 1), size, buffer).starts_with('\0')) return;
+  const std::string_view tail = source.view(size - std::min(size, kPaddingLimit), size, buffer);
   const std::size_t last = tail.find_last_not_of('\0');
-  if (last == tail.npos || last + 1 == tail.size()) return text;
+  if (last == tail.npos) return;
   const std::size_t padding = tail.size() - last - 1;
   findings.warn("padding", [&] {
     return std::pair(fmt::format("{} zero bytes at the end are ignored", padding), Spot{file, 0, 0, ""});
   });
-  return text.substr(0, text.size() - padding);
+  source.cut(size - padding);
 }
 
-}  // namespace
-
-WebxmlOutline outline_webxml(std::string_view text, const std::string& file, bool careful,
+WebxmlOutline outline_webxml(const TextSource& source, const std::string& file, bool careful,
                              Findings& findings) {
-  const std::string_view content = without_padding(text, file, findings);
   if (!careful) {
     try {
       Findings found;
-      WebxmlOutline outline = Outliner(content, file, false, found).run();
+      WebxmlOutline outline = Outliner(source, file, false, found).run();
       findings.merge(found);
       return outline;
     } catch (const Error&) {
       // A wrong guess may have caused it: the careful way tells what really is wrong.
     }
   }
-  return Outliner(content, file, true, findings).run();
+  return Outliner(source, file, true, findings).run();
 }
 
-std::string_view body_name(BodyKind kind) {
-  switch (kind) {
-    case BodyKind::Vertices:
-      return "verts";
-    case BodyKind::Facets:
-      return "facets";
-    case BodyKind::Polyline:
-      return "polyline";
+bool ends_as_outlined(const TextSource& source, const WebxmlBody& body, const std::string& file) {
+  try {
+    TextWindow window(source);
+    constexpr std::size_t kDepth = 3;
+    XmlScanner scanner(window, file, body.begin, kDepth);
+    while (true) {
+      const bool outermost = scanner.depth() == kDepth;
+      const XmlToken token = scanner.next();
+      if (token.kind == Kind::EndOfFile || token.begin > body.end) return false;
+      if (token.kind == Kind::End && outermost) return token.begin == body.end;
+    }
+  } catch (const Error&) {
+    return false;
   }
-  return {};
 }
 
 }  // namespace meshcontour::detail

@@ -28,14 +28,17 @@ struct WebxmlOutline {
 
 /// Checks the structure of a webxml file and cuts out its bodies.
 ///
+/// @param source   must outlive the outline.
 /// @param careful  parses every body to its end instead of looking the end up.
 /// @throws Error   BadData with the line if the file is not well-formed XML of this kind, or in an encoding
-/// other than
-///                 UTF-8 and ISO-8859-1.
-WebxmlOutline outline_webxml(std::string_view text, const std::string& file, bool careful,
+///                 other than UTF-8 and ISO-8859-1.
+WebxmlOutline outline_webxml(const TextSource& source, const std::string& file, bool careful,
                              Findings& findings);
 
-/// The name of the element that holds a body.
-std::string_view body_name(BodyKind kind);
+/// Whether a body, parsed whatever its form, is well-formed and ends where its outline says.
+bool ends_as_outlined(const TextSource& source, const WebxmlBody& body, const std::string& file);
+
+/// Cuts off zero bytes at the end, up to a mebibyte: some downloads are padded.
+void cut_padding(TextSource& source, const std::string& file, Findings& findings);
 
 }  // namespace meshcontour::detail

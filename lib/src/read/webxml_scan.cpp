@@ -68,8 +68,9 @@ BlockCount count_rest(std::string_view text, const Names& names) {
 }
 
 // The first item at or after an offset, if it is near and belongs to the same body.
-std::optional<std::size_t> next_item(std::string_view text, std::size_t offset, const Names& names) {
-  const std::string_view near = text.substr(offset, 4 * kBlock);
+std::optional<std::size_t> next_item(TextWindow& window, std::size_t offset, const Names& names) {
+  window.show(offset, kBlock);
+  const std::string_view near = window.part(offset, std::min(offset + kBlock, window.end()));
   const std::size_t item = near.find(names.item);
   if (item == near.npos || near.substr(0, item).find(names.closing) != near.npos) return std::nullopt;
   return offset + item;
@@ -160,44 +161,53 @@ bool scan_point_items(Cursor& in, const char (&open)[N], std::span<Point> points
 
 }  // namespace
 
-std::optional<BodyOutline> outline_body(std::string_view text, std::size_t begin, BodyKind kind) {
+std::optional<BodyOutline> outline_body(TextWindow& window, std::size_t begin, BodyKind kind) {
   const Names names = names_of(kind);
+  constexpr std::size_t kBehind = 16;  // a closing tag may begin in the last byte of a block
   BodyOutline outline;
   BodyPiece piece{begin, begin, 0, 0};
   std::size_t at = begin;
-  for (; at + kBlock + 3 <= text.size(); at += kBlock) {
+  for (;; at += kBlock) {
     if (at - piece.begin >= kPieceSize) {
-      if (const auto cut = next_item(text, at, names)) {
+      if (const auto cut = next_item(window, at, names)) {
         outline.pieces.push_back({piece.begin, *cut, piece.first_item, outline.items - piece.first_item});
         piece = {*cut, *cut, outline.items, 0};
       }
     }
-    const BlockCount count = count_block(text.data() + at, names);
-    if (count.closing && text.substr(at, kBlock + names.closing.size()).find(names.closing) != text.npos)
-      break;
+    window.show(at, kBlock + kBehind);
+    if (window.end() < at + kBlock + kBehind) break;
+    const std::string_view block = window.part(at, at + kBlock + kBehind);
+    const BlockCount count = count_block(block.data(), names);
+    if (count.closing && block.find(names.closing) != block.npos) break;
     outline.items += count.items;
     outline.normals += count.normals;
   }
-  outline.end = text.find(names.closing, at);
-  if (outline.end == text.npos) return std::nullopt;
-  const BlockCount rest = count_rest(text.substr(at, outline.end - at), names);
-  outline.items += rest.items;
-  outline.normals += rest.normals;
-  piece.end = outline.end;
+  const std::string_view rest = window.part(at, window.end());
+  const std::size_t length = rest.find(names.closing);
+  if (length == rest.npos) return std::nullopt;
+  const BlockCount count = count_rest(rest.substr(0, length), names);
+  outline.end = piece.end = at + length;
+  outline.items += count.items;
+  outline.normals += count.normals;
   piece.items = outline.items - piece.first_item;
   outline.pieces.push_back(piece);
   return outline;
 }
 
-bool scan_points(std::string_view text, const BodyPiece& piece, BodyKind kind, std::span<Point> points) {
-  Cursor in{text.data() + piece.begin, text.data() + piece.end};
+std::string_view piece_text(const TextSource& source, const BodyPiece& piece, std::string& buffer) {
+  const std::string_view seen = source.view(piece.begin, piece.end + TextSource::kGuard, buffer);
+  return seen.substr(0, piece.end - piece.begin);
+}
+
+bool scan_points(std::string_view piece, BodyKind kind, std::span<Point> points) {
+  Cursor in{piece.data(), piece.data() + piece.size()};
   return kind == BodyKind::Vertices ? scan_point_items(in, "<v p=\"", points)
                                     : scan_point_items(in, "<p l=\"", points);
 }
 
-bool scan_facets(std::string_view text, const BodyPiece& piece, std::span<Triangle> triangles,
-                 std::span<Vector> normals, Index& highest) {
-  Cursor in{text.data() + piece.begin, text.data() + piece.end};
+bool scan_facets(std::string_view piece, std::span<Triangle> triangles, std::span<Vector> normals,
+                 Index& highest) {
+  Cursor in{piece.data(), piece.data() + piece.size()};
   Vector* corner = normals.data();
   for (Triangle& triangle : triangles) {
     in.skip_space();

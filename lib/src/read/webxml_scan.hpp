@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/text_source.hpp"
 #include "meshcontour/types.hpp"
 
 namespace meshcontour::detail {
@@ -31,28 +32,32 @@ struct BodyOutline {
 /// Finds the closing tag of a body and counts its items, by looking at '<' and what follows only: one cheap
 /// pass. Right for plain bodies; for others the scan of a piece fails.
 ///
-/// @param begin  offset of the body's first byte.
-/// @return       nothing if there is no closing tag.
-std::optional<BodyOutline> outline_body(std::string_view text, std::size_t begin, BodyKind kind);
+/// @param window  on the file; is moved along.
+/// @param begin   offset of the body's first byte.
+/// @return        nothing if there is no closing tag.
+std::optional<BodyOutline> outline_body(TextWindow& window, std::size_t begin, BodyKind kind);
+
+/// The bytes of a piece; those behind it that the scan looks at are readable too.
+std::string_view piece_text(const TextSource& source, const BodyPiece& piece, std::string& buffer);
 
 /// Reads a piece of points in the plain form: `<v p="x y z"/>` and white space, nothing else.
 ///
+/// @param piece   as from piece_text.
 /// @param points  one for each item.
-/// @return        false at anything else, which may be legal: then the piece is to be read in the other way.
-/// Also
-///                for coordinates that need a message.
-bool scan_points(std::string_view text, const BodyPiece& piece, BodyKind kind, std::span<Point> points);
+/// @return        false at anything else, which may be legal: then the body is to be read in the other way.
+///                Also for coordinates that need a message.
+bool scan_points(std::string_view piece, BodyKind kind, std::span<Point> points);
 
 /// Reads a piece of facets in the plain form: `<f v="i j k" fn="x y z">`, none or three `<n d="x y z"/>`,
-/// `</f>`, and white space, nothing else. Facet normals (fn) are not used, only skipped: the winding gives
-/// them.
+/// `</f>`, and white space, nothing else. Facet normals (fn) are not used: the winding gives them.
 ///
+/// @param piece      as from piece_text.
 /// @param triangles  one for each item; indices are not checked.
 /// @param normals    three for each item, or empty if there are none to come.
 /// @param highest    raised to the highest index.
 /// @return           as scan_points.
-bool scan_facets(std::string_view text, const BodyPiece& piece, std::span<Triangle> triangles,
-                 std::span<Vector> normals, Index& highest);
+bool scan_facets(std::string_view piece, std::span<Triangle> triangles, std::span<Vector> normals,
+                 Index& highest);
 
 /// Coordinates beyond this are worth a warning.
 inline constexpr double kUsualCoordinate = 1e15;

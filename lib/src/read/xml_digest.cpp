@@ -10,21 +10,17 @@ void XmlDigest::restart(std::size_t offset) {
   sections_.assign(1, {1, offset});
 }
 
-void XmlDigest::append(const XmlToken& token) {
+void XmlDigest::append(XmlToken::Kind kind, std::string_view token) {
   using Kind = XmlToken::Kind;
-  const bool tag = token.kind == Kind::Start || token.kind == Kind::Empty || token.kind == Kind::End;
-  append_normalized(original_.substr(token.begin, token.end - token.begin), !tag);
-}
-
-void XmlDigest::append_normalized(std::string_view part, bool line_ends_only) {
-  for (std::size_t i = 0; i < part.size(); ++i) {
-    char c = part[i];
+  const bool tag = kind == Kind::Start || kind == Kind::Empty || kind == Kind::End;
+  for (std::size_t i = 0; i < token.size(); ++i) {
+    char c = token[i];
     if (c == '\r') {
-      if (i + 1 < part.size() && part[i + 1] == '\n') continue;
+      if (i + 1 < token.size() && token[i + 1] == '\n') continue;
       c = '\n';
     }
     if (c == '\n') ++line_;
-    if (c == '\n' || !line_ends_only) text_ += c;
+    if (c == '\n' || tag) text_ += c;
   }
 }
 

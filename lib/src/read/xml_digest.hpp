@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/text_cursor.hpp"
+#include "base/text_source.hpp"
 #include "read/xml_scanner.hpp"
 
 namespace meshcontour::detail {
@@ -19,18 +19,18 @@ class XmlDigest {
  public:
   /// @param original     what the tokens are cut from; must outlive the digest.
   /// @param start, line  where the tokens begin, and the line of that offset.
-  explicit XmlDigest(std::string_view original, std::size_t start = 0, std::size_t line = 1)
-      : original_(original), lines_(original, start, line), sections_{{1, start}} {}
+  explicit XmlDigest(const TextSource& original, std::size_t start = 0, std::size_t line = 1)
+      : lines_(original, start, line), sections_{{1, start}} {}
 
   /// Starts again at a later offset of the original, empty.
   void restart(std::size_t offset);
   /// Appends a tag, or the line ends of any other token.
-  void append(const XmlToken& token);
+  void append(XmlToken::Kind kind, std::string_view token);
   /// Appends text that stands for a part of the original up to `end`, which is left out.
   void leave_out(std::string_view stand_in, std::size_t end);
 
   std::string& text() { return text_; }
-  /// Line of the original for a line that tinyxml2 reports.
+  /// Line of the original for a line that tinyxml2 reports. May have to read all that is before it.
   std::size_t line(int digest_line);
 
  private:
@@ -38,10 +38,8 @@ class XmlDigest {
     std::size_t line;    // of the digest
     std::size_t offset;  // in the original
   };
-  void append_normalized(std::string_view part, bool line_ends_only);
 
-  std::string_view original_;
-  LineCounter lines_;
+  SourceLines lines_;
   std::string text_;
   std::size_t line_ = 1;
   std::vector<Section> sections_;

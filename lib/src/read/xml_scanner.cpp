@@ -6,8 +6,6 @@
 #include <array>
 #include <charconv>
 
-#include "base/text_cursor.hpp"
-
 namespace meshcontour::detail {
 namespace {
 
@@ -26,6 +24,12 @@ bool continues_name(char c) {
   return starts_name(c) || (c >= '0' && c <= '9') || c == '-' || c == '.';
 }
 
+// A shorter rest of the window is not scanned: more than a literal or a reference takes.
+constexpr std::size_t kLookAhead = 128;
+
+// The window ends within the token at hand.
+struct CutOff {};
+
 bool is_illegal(char c) {
   return static_cast<unsigned char>(c) < 0x20 && !is_space(c);
 }
@@ -37,23 +41,63 @@ bool is_legal_character(unsigned long code) {
 
 }  // namespace
 
-XmlScanner::XmlScanner(std::string_view text, const std::string& file, std::size_t begin, std::size_t depth)
-    : text_(text), file_(file), offset_(begin), base_depth_(depth), root_seen_(depth > 0) {
-  if (begin == 0 && at("\xEF\xBB\xBF")) offset_ = 3;
+XmlScanner::XmlScanner(TextWindow& window, const std::string& file, std::size_t begin, std::size_t depth)
+    : window_(window), file_(file), base_depth_(depth), root_seen_(depth > 0) {
+  look_at(begin, 1);
+  if (begin == 0 && at("\xEF\xBB\xBF")) offset_ = document_begin_ = 3;
 }
 
-void XmlScanner::fail(std::size_t offset, const std::string& message) const {
-  LineCounter lines(text_);
+void XmlScanner::look_at(std::size_t offset, std::size_t length) {
+  window_.show(offset, std::max(length, kLookAhead));
+  text_ = window_.text();
+  base_ = window_.begin();
+  offset_ = std::min(offset - base_, text_.size());
+}
+
+void XmlScanner::fail_at(std::size_t offset, const std::string& message) const {
+  SourceLines lines(window_.source());
   throw Error(ErrorCode::BadData, message, Spot{file_, lines.line(offset), lines.column(offset), ""});
 }
 
+// What looks wrong near the end of the window may be right once more is seen.
+void XmlScanner::fail(std::size_t offset, const std::string& message) const {
+  if (!reaches_end() && offset_ + kLookAhead > text_.size()) throw CutOff{};
+  fail_at(base_ + offset, message);
+}
+
+void XmlScanner::fail_too_long(std::size_t offset) const {
+  fail_at(base_ + offset, fmt::format("markup of more than {} bytes", kMaxToken));
+}
+
+// A token is scanned again, in a window that begins with it and is as large as it takes, when the window cuts
+// it off.
 XmlToken XmlScanner::next() {
-  if (offset_ >= text_.size()) {
-    if (!open_.empty()) fail(offset_, fmt::format("the file ends inside <{}>", printable(open_.back(), 40)));
-    if (!root_seen_) fail(offset_, "no document element");
-    return {Kind::EndOfFile, offset_, offset_, {}};
+  if (offset_ + kLookAhead > text_.size()) look_at(base_ + offset_, 1);
+  while (true) {
+    const std::size_t begin = offset_;
+    try {
+      XmlToken token = scan();
+      const bool may_go_on = token.kind == Kind::Text && offset_ == text_.size() && !reaches_end();
+      if (!may_go_on || begin == 0) {
+        if (token.kind != Kind::Text && token.end - token.begin > kMaxToken) fail_too_long(begin);
+        token.begin += base_;
+        token.end += base_;
+        return token;
+      }
+    } catch (const CutOff&) {
+      // as below
+    }
+    const std::size_t rest = text_.size() - begin;
+    if (rest > kMaxToken) fail_too_long(begin);
+    look_at(base_ + begin, begin > 0 ? rest + 1 : 2 * rest);
   }
-  return text_[offset_] == '<' ? markup() : text();
+}
+
+XmlToken XmlScanner::scan() {
+  if (offset_ < text_.size()) return text_[offset_] == '<' ? markup() : text();
+  if (!open_.empty()) fail(offset_, fmt::format("the file ends inside <{}>", printable(open_.back(), 40)));
+  if (!root_seen_) fail(offset_, "no document element");
+  return {Kind::EndOfFile, offset_, offset_, {}};
 }
 
 XmlToken XmlScanner::text() {
@@ -83,10 +127,17 @@ XmlToken XmlScanner::markup() {
   return at("</") ? end_tag() : start_tag();
 }
 
+std::size_t XmlScanner::find(std::string_view literal, std::size_t from, const char* what) const {
+  const std::size_t found = text_.find(literal, from);
+  if (found != text_.npos) return found;
+  if (!reaches_end()) throw CutOff{};
+  fail(offset_, fmt::format("{} that does not end", what));
+}
+
 XmlToken XmlScanner::comment() {
   const std::size_t begin = offset_;
-  const std::size_t end = text_.find("--", begin + 4);
-  if (end == text_.npos) fail(begin, "a comment that does not end");
+  const std::size_t end = find("--", begin + 4, "a comment");
+  if (end + 3 > text_.size() && !reaches_end()) throw CutOff{};
   if (text_.substr(end, 3) != "-->") fail(end, "'--' inside a comment");
   check_characters(begin, end);
   offset_ = end + 3;
@@ -96,8 +147,7 @@ XmlToken XmlScanner::comment() {
 XmlToken XmlScanner::character_data() {
   const std::size_t begin = offset_;
   if (depth() == 0) fail(begin, "a CDATA section outside the document element");
-  const std::size_t end = text_.find("]]>", begin);
-  if (end == text_.npos) fail(begin, "a CDATA section that does not end");
+  const std::size_t end = find("]]>", begin, "a CDATA section");
   check_characters(begin, end);
   offset_ = end + 3;
   return {Kind::CharacterData, begin, offset_, {}};
@@ -105,20 +155,22 @@ XmlToken XmlScanner::character_data() {
 
 XmlToken XmlScanner::instruction() {
   const std::size_t begin = offset_;
-  offset_ += 2;
+  const std::size_t end = find("?>", begin, "a processing instruction");
+  offset_ = begin + 2;
   const std::string_view target = name("a processing instruction");
-  const std::size_t end = text_.find("?>", offset_);
-  if (end == text_.npos) fail(begin, "a processing instruction that does not end");
-  if (end != offset_ && !is_space(text_[offset_]))
+  if (end != offset_ && !is_space(text_[offset_])) {
     fail(offset_, "a blank is missing after the instruction's name");
+  }
   check_characters(begin, end);
-  offset_ = end + 2;
-  const bool first = begin == 0 || (begin == 3 && text_[0] != ' ');
-  if (target == "xml" && first) return {Kind::Declaration, begin, offset_, target};
+  if (target == "xml" && base_ + begin == document_begin_) {
+    offset_ = end + 2;
+    return {Kind::Declaration, begin, offset_, target};
+  }
   if (target.size() == 3 && (target[0] | 0x20) == 'x' && (target[1] | 0x20) == 'm' &&
       (target[2] | 0x20) == 'l') {
     fail(begin, "an XML declaration that is not at the start of the file");
   }
+  offset_ = end + 2;
   return {Kind::Instruction, begin, offset_, target};
 }
 
@@ -127,7 +179,7 @@ XmlToken XmlScanner::start_tag() {
   if (depth() == 0 && root_seen_) fail(offset_, "a second document element");
   ++offset_;
   token.name = name("a tag");
-  attributes(attribute_names_);
+  attributes();
   if (at("/>")) {
     token.kind = Kind::Empty;
     offset_ += 2;
@@ -137,7 +189,7 @@ XmlToken XmlScanner::start_tag() {
     fail(token.begin, fmt::format("the tag <{} does not end", printable(token.name, 40)));
   }
   token.end = offset_;
-  check_unique(attribute_names_, token.begin);
+  check_unique(token.begin);
   open(token);
   return token;
 }
@@ -145,7 +197,7 @@ XmlToken XmlScanner::start_tag() {
 void XmlScanner::open(const XmlToken& token) {
   root_seen_ = true;
   if (depth() >= kMaxDepth) fail(token.begin, fmt::format("elements nested deeper than {}", kMaxDepth));
-  if (token.kind == Kind::Start) open_.push_back(token.name);
+  if (token.kind == Kind::Start) open_.emplace_back(token.name);
 }
 
 XmlToken XmlScanner::end_tag() {
@@ -167,7 +219,8 @@ XmlToken XmlScanner::end_tag() {
   return token;
 }
 
-void XmlScanner::attributes(std::vector<std::string_view>& names) {
+void XmlScanner::attributes() {
+  std::vector<std::string_view>& names = attribute_names_;
   names.clear();
   while (true) {
     const bool space = skip_space();
@@ -239,11 +292,13 @@ void XmlScanner::check_characters(std::size_t begin, std::size_t end) const {
   }
 }
 
-void XmlScanner::check_unique(std::vector<std::string_view>& names, std::size_t begin) const {
-  if (names.size() < 2) return;
-  std::ranges::sort(names);
-  const auto twice = std::ranges::adjacent_find(names);
-  if (twice != names.end()) fail(begin, fmt::format("attribute '{}' is given twice", printable(*twice, 40)));
+void XmlScanner::check_unique(std::size_t begin) {
+  if (attribute_names_.size() < 2) return;
+  std::ranges::sort(attribute_names_);
+  const auto twice = std::ranges::adjacent_find(attribute_names_);
+  if (twice != attribute_names_.end()) {
+    fail(begin, fmt::format("attribute '{}' is given twice", printable(*twice, 40)));
+  }
 }
 
 std::string_view declared_encoding(std::string_view declaration) {

@@ -177,6 +177,34 @@ TEST_CASE("webxml: ten thousand warnings of one kind are one line", "[read]") {
   CHECK(model.diagnostics[0].count == 10'000);
 }
 
+TEST_CASE("webxml: what the reader holds of a file may end anywhere", "[read][error]") {
+  const std::string text =
+      replaced(document(shell(kPoints + kSquare) +
+                        "<annotation id=\"n&#x41;\" note='a > b'><polyline><p l=\"0 0 0\"/><p "
+                        "l=\"1 2 3\"/></polyline></annotation><?pi some words?>\r\n"),
+               "<shape", "<![CDATA[ ]] > ]]>text &amp; more<!-- - --><shape");
+  const std::string usual = outcome(text), prolog = text.substr(0, text.find("<step"));
+  const std::string broken = replaced(text, "1 2 3", "1 2 <");
+  const std::string names_line = outcome(broken);
+  for (std::size_t shift = 0; shift < text.size(); ++shift) {
+    constexpr std::size_t kWindow = std::size_t{256} << 10;
+    const std::string padding = "<!--" + std::string(kWindow - prolog.size() - shift, '.') + "-->";
+    const auto padded = [&](const std::string& whole) {
+      return prolog + padding + whole.substr(prolog.size());
+    };
+    if (outcome(padded(text)) != usual) FAIL("shift " << shift << ": " << outcome(padded(text)));
+    if (outcome(padded(broken)) != names_line) FAIL("shift " << shift << ": " << outcome(padded(broken)));
+  }
+}
+
+TEST_CASE("webxml: long attributes are read, absurd ones refused", "[read][error]") {
+  const std::string name(3'000'000, 'N');
+  CHECK((read(replaced(square(), "name=\"T\"", "name=\"" + name + "\"")).name == name));
+  const std::string absurd(70'000'000, 'N');
+  CHECK_THROWS_WITH(read(replaced(square(), "name=\"T\"", "name=\"" + absurd + "\"")),
+                    Contains("m.xml:3:1: markup of more than 67108864 bytes"));
+}
+
 TEST_CASE("webxml: many attributes and deep nesting stay cheap", "[read][error]") {
   std::string attributes;
   for (int k = 0; k < 50'000; ++k) attributes += " a" + std::to_string(k) + "=\"1\"";

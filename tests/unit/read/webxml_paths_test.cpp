@@ -1,5 +1,7 @@
 // The scan of plain bodies and tinyxml2 must give the same model, whatever the threads.
 
+#include <unistd.h>
+
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -40,6 +42,15 @@ std::string outcome(const fs::path& file, const std::string& bytes, bool careful
   }
 }
 
+std::string outcome_of_file(const fs::path& file) {
+  try {
+    const Model model = read_model(file);
+    return fingerprint(model) + texts(model.diagnostics);
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
 void check_paths(const fs::path& file, const std::string& bytes) {
   INFO(file.string());
   const std::string usual = outcome(file, bytes, false, 1);
@@ -68,6 +79,27 @@ TEST_CASE("webxml paths: agree when one body of many is unusual", "[read]") {
   check_paths("stud.xml", replaced(text, "<f v=\"102 103 137\"", "<x/><f v=\"102 103 137\""));
   check_paths("stud.xml", replaced(text, "<f v=\"102 103 137\"", "<f v=\"102 103 237\" a=\"\""));
   check_paths("stud.xml", replaced(text, "<f v=\"102 103 137\"", "<f v=\"102 103 238\""));
+}
+
+TEST_CASE("webxml paths: a large model reads alike from memory and part by part from its file", "[read]") {
+  std::string shells, ids;
+  const std::string text = whole(fs::path(MESHCONTOUR_DATA_DIR) / "stud.xml");
+  const std::string stud = text.substr(text.find("<verts>"), text.find("</shell>") - text.find("<verts>"));
+  for (int k = 0; k < 9; ++k) {
+    ids += " s" + std::to_string(k);
+    shells += shell(k == 4 ? replaced(stud, "<f v=\"102 103 137\"", "<x/><f v=\"102 103 137\"") : stud,
+                    "s" + std::to_string(k));
+  }
+  const fs::path file =
+      fs::temp_directory_path() / ("meshcontour_large_" + std::to_string(::getpid()) + ".xml");
+  for (const std::string& model :
+       {document(shells, ids), replaced(document(shells, ids), "</step-assembly>", "</step>")}) {
+    std::ofstream(file, std::ios::binary) << model;
+    INFO(file.string());
+    CHECK((outcome_of_file(file) == outcome(file, model, false, 2)));
+    check_paths(file, model);
+  }
+  fs::remove(file);
 }
 
 TEST_CASE("webxml paths: agree on every model, and on what an independent reader counts", "[read][shared]") {

@@ -13,6 +13,12 @@ using namespace meshcontour::detail;
 
 namespace {
 
+std::optional<BodyOutline> outlined(const std::string& text, std::size_t begin, BodyKind kind) {
+  const TextSource source(text);
+  TextWindow window(source);
+  return outline_body(window, begin, kind);
+}
+
 // A body of many facets, some with normals, and its closing tag.
 std::string facets_body(std::size_t count) {
   std::string text;
@@ -29,11 +35,13 @@ bool scan_all(const std::string& text, const BodyOutline& outline, std::vector<T
   triangles.resize(outline.items);
   normals.resize(outline.normals > 0 ? 3 * outline.items : 0);
   Index highest = 0;
+  const TextSource source(text);
+  std::string buffer;
   for (const BodyPiece& piece : outline.pieces) {
     const auto corners = normals.empty() ? std::span<Vector>()
                                          : std::span(normals).subspan(3 * piece.first_item, 3 * piece.items);
-    if (!scan_facets(text, piece, std::span(triangles).subspan(piece.first_item, piece.items), corners,
-                     highest))
+    if (!scan_facets(piece_text(source, piece, buffer),
+                     std::span(triangles).subspan(piece.first_item, piece.items), corners, highest))
       return false;
   }
   return true;
@@ -44,7 +52,7 @@ bool scan_all(const std::string& text, const BodyOutline& outline, std::vector<T
 TEST_CASE("outline_body: pieces cover the body between items, and the scan agrees with tinyxml2", "[read]") {
   const std::size_t count = GENERATE(0u, 1u, 3u, 50u, 2000u, 9000u);
   const std::string text = "<facets>" + facets_body(count) + " </shell> <facets> <f </facets>";
-  const auto outline = outline_body(text, 8, BodyKind::Facets);
+  const auto outline = outlined(text, 8, BodyKind::Facets);
   REQUIRE(outline);
   CHECK(outline->end == text.find("</facets>"));
   CHECK(outline->items == count);
@@ -64,7 +72,8 @@ TEST_CASE("outline_body: pieces cover the body between items, and the scan agree
   REQUIRE(scan_all(text, *outline, triangles, normals));
   Findings findings;
   const std::string file = "f";
-  const FacetData parsed = parse_facets({text, 8, outline->end, 1, file, "shell"}, count + 10, findings);
+  const std::string_view body = std::string_view(text).substr(8, outline->end - 8);
+  const FacetData parsed = parse_facets({body, 1, file, "shell"}, count + 10, findings);
   CHECK(parsed.triangles == triangles);
   CHECK(parsed.normals == normals);
   CHECK(findings.diagnostics().empty());
@@ -81,7 +90,7 @@ TEST_CASE("scan_facets: anything but the plain form is left to the other way", "
       "<f v=\"0 1 2\" fn=\"<\"/>", "<f v=\"-0 1 2\"/>", "<f v=\"0 1 99999999999\"/>",
       "<f v=\"0 1 2\" fn=\"\xe9\"/>", "<f v=\"0 1 2\"><n d=\"0 0 nan\"/></f>", "<f", "<facet/>");
   const std::string text = facet + "\n</facets>        ";
-  const auto outline = outline_body(text, 0, BodyKind::Facets);
+  const auto outline = outlined(text, 0, BodyKind::Facets);
   REQUIRE(outline);
   std::vector<Triangle> triangles;
   std::vector<Vector> normals;
@@ -92,9 +101,10 @@ TEST_CASE("scan_facets: anything but the plain form is left to the other way", "
 TEST_CASE("scan_points: plain points only, and no far ones", "[read]") {
   const auto taken = [](const std::string& body) {
     const std::string text = body + "</verts>  ";
-    const auto outline = outline_body(text, 0, BodyKind::Vertices);
+    const auto outline = outlined(text, 0, BodyKind::Vertices);
     std::vector<Point> points(outline->items);
-    return scan_points(text, outline->pieces[0], BodyKind::Vertices, points);
+    std::string buffer;
+    return scan_points(piece_text(TextSource(text), outline->pieces[0], buffer), BodyKind::Vertices, points);
   };
   CHECK(taken(""));
   CHECK(taken("\r\n\t <v p=\"1 -2.5 3e-014\"/>\n"));
@@ -108,7 +118,7 @@ TEST_CASE("scan_points: plain points only, and no far ones", "[read]") {
 }
 
 TEST_CASE("outline_body: a body without its closing tag is none", "[read]") {
-  CHECK_FALSE(outline_body("<v p=\"1 2 3\"/>", 0, BodyKind::Vertices));
-  CHECK_FALSE(outline_body(std::string(5000, ' ') + "</vert>", 0, BodyKind::Vertices));
-  CHECK_FALSE(outline_body("", 0, BodyKind::Polyline));
+  CHECK_FALSE(outlined("<v p=\"1 2 3\"/>", 0, BodyKind::Vertices));
+  CHECK_FALSE(outlined(std::string(5000, ' ') + "</vert>", 0, BodyKind::Vertices));
+  CHECK_FALSE(outlined("", 0, BodyKind::Polyline));
 }
