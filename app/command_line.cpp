@@ -2,132 +2,76 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
-#include <functional>
 #include <iostream>
-#include <limits>
-#include <numbers>
 #include <tuple>
 
 #include "choices.hpp"
+#include "documentation.hpp"
+#include "help.hpp"
 #include "meshcontour/version.hpp"
+#include "option_group.hpp"
 #include "option_values.hpp"
 
 namespace meshcontour::app {
 namespace {
 
-constexpr const char* kFooter = R"(The kind of an output follows its extension: .png .csv .obj .step .dxf .svg .json
+constexpr const char* kFooter = R"(The kind of an output follows its extension: .png .csv .obj .step
+.dxf .svg .json
 With several inputs use {stem}, {dir} and {n} in the names of the outputs.
 Angles are in degrees, lengths in the unit of the model.
 
-Exit codes: 0 ok, 64 usage, 65 bad data, 66 no input, 69 no renderer, 70 internal,
-71 out of memory, 73 cannot create, 74 input/output, 75 time limit;
+Exit codes: 0 ok, 64 usage, 65 bad data, 66 no input, 69 no renderer,
+70 internal, 71 out of memory, 73 cannot create, 74 input/output, 75 time limit,
+130 and 143 interrupted;
 with several inputs: 0 all good, 1 some failed.)";
+
+std::string version_text() {
+  return fmt::format("meshcontour {}\n{}\nOpenGL: {}", version(), libraries(), fmt::join(renderers(), ", "));
+}
 
 // Options that are parsed once all are known, as one's default depends on another.
 struct PictureTexts {
   std::string layers, size, background;
 };
 
-constexpr double kRadians = std::numbers::pi / 180;  // a degree
-
-// The options of one group of the help.
-class Group {
- public:
-  Group(CLI::App& app, std::string name) : app_(app), name_(std::move(name)) {}
-
-  CLI::Option* add_text(const std::string& names, std::string& target, const std::string& kind,
-                        const std::string& help) {
-    return app_.add_option(names, target, help)->type_name(kind)->group(name_);
-  }
-
-  /// Can be repeated; takes one value each time.
-  CLI::Option* add_list(const std::string& names, std::vector<std::string>& target, const std::string& kind,
-                        const std::string& help) {
-    return app_.add_option(names, target, help)->allow_extra_args(false)->type_name(kind)->group(name_);
-  }
-
-  CLI::Option* add_flag(const std::string& names, bool& target, const std::string& help) {
-    return app_.add_flag(names, target, help)->group(name_);
-  }
-
-  CLI::Option* add_action(const std::string& names, const std::function<void()>& action, const std::string& help) {
-    return app_.add_flag_callback(names, action, help)->group(name_);
-  }
-
-  CLI::Option* add_parsed(const std::string& names, const std::string& kind,
-                          const std::function<void(const std::string&)>& parse, const std::string& help) {
-    return app_.add_option_function<std::string>(names, parse, help)->type_name(kind)->group(name_);
-  }
-
-  /// One word of a table.
-  template <class T, std::size_t N>
-  CLI::Option* add_choice(const std::string& name, T& target, const Choices<T, N>& choices, const std::string& help) {
-    const auto parse = [&target, &choices, name](const std::string& text) {
-      target = parse_choice(text, choices, name);
-    };
-    return add_parsed(name, "WORD", parse, fmt::format("{}: {}", help, words(choices)))
-        ->default_str(word_of(choices, target));
-  }
-
-  /// Degrees for the user, radians inside; between 0 and `largest` degrees.
-  CLI::Option* add_angle(const std::string& name, double& radians, double largest, const std::string& help) {
-    const auto parse = [&radians, name, largest](const std::string& text) {
-      const double degrees = parse_positive(text, name);
-      if (degrees >= largest) refuse(name, text, fmt::format("degrees below {}", largest));
-      radians = degrees * kRadians;
-    };
-    return add_parsed(name, "DEGREES", parse, help)->default_str(fmt::format("{:.6g}", radians / kRadians));
-  }
-
-  /// A whole number up to `largest`.
-  template <class T>
-  CLI::Option* add_count(const std::string& name, T& target, const std::string& help,
-                         std::uint64_t largest = std::numeric_limits<T>::max()) {
-    const auto parse = [&target, name, largest](const std::string& text) {
-      target = static_cast<T>(parse_count(text, name, largest));
-    };
-    return add_parsed(name, "N", parse, help)->default_str(fmt::format("{}", target));
-  }
-
- private:
-  CLI::App& app_;
-  std::string name_;
-};
-
 void add_output_options(Group group, CommandLine& line) {
   group.add_list("-o,--output", line.outputs, "FILE", "File to write, repeatable; - is standard output");
   group.add_list("--format", line.formats, "WORD", "Format of an output without an extension, repeatable");
-  const auto parse_report = [&line](const std::string& text) { line.reports.push_back(parse_report_target(text)); };
-  group.add_parsed("--report", "[FORMAT:]FILE", parse_report,
-                   "Write counts and the time of each stage, repeatable: json (default), gbench, junit, gha, trace")
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->trigger_on_parse();
+  const auto parse_report = [&line](const std::string& text) {
+    line.reports.push_back(parse_report_target(text));
+  };
+  group.add_each(
+      "--report", "[FORMAT:]FILE", parse_report,
+      "Write counts and the time of each stage, repeatable: json (default), gbench, junit, gha, trace");
   group.add_flag("--timings", line.job.timings_in_json,
                  "List these times in .json outputs too, whose bytes then differ from run to run");
   const auto add_mesh = [&line](const std::string& path) { line.meshes.push_back(path); };
-  group.add_parsed("--save-mesh", "FILE", add_mesh, "Write the mesh, repeatable: .off, .obj, .stl, .ply")
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->trigger_on_parse();
-  group.add_action("--mesh-text", [&line] { line.job.mesh.binary = false; }, "Text instead of binary .stl and .ply");
+  group.add_each("--save-mesh", "FILE", add_mesh, "Write the mesh, repeatable: .off, .obj, .stl, .ply");
+  group.add_action(
+      "--mesh-text", [&line] { line.job.mesh.binary = false; }, "Text instead of binary .stl and .ply");
   group.add_choice("--csv-of", line.job.write.csv, kCsvContents, "Rows of a .csv");
   group.add_choice("--obj", line.job.write.obj, kObjContents, "Contents of an .obj");
   group.add_choice("--dxf", line.job.write.dxf, kDxfContents, "Entities of a .dxf");
   group.add_choice("--step", line.job.write.step, kStepSchemas, "Schema of a .step");
-  group.add_choice("--edges", line.job.write.edges, kEdgeUses, "Edges that two patches share, in .obj curves, .step, .dxf, .svg");
+  group.add_choice("--edges", line.job.write.edges, kEdgeUses,
+                   "Edges that two patches share, in .obj curves, .step, .dxf, .svg");
 }
 
 void add_model_options(Group group, CommandLine& line) {
   Job& job = line.job;
   group.add_choice("--patches-from", job.segment.source, kPatchSources, "Where patches come from");
-  group.add_angle("--feature-angle", job.segment.feature_angle, 180, "An edge is sharp above it; for files without patches");
+  group.add_angle("--feature-angle", job.segment.feature_angle, 180,
+                  "An edge is sharp above it; for files without patches");
   const auto parse_weld = [&job](const std::string& text) { job.read.weld = parse_length(text, "--weld"); };
-  group.add_parsed("--weld", "LENGTH", parse_weld,
-                   "Join points of polygon files that are no farther apart; without it only STL's equal points");
+  group.add_parsed(
+      "--weld", "LENGTH", parse_weld,
+      "Join points of polygon files that are no farther apart; without it only STL's equal points");
   group.add_flag("--repair", job.repair, "Cut the surface apart where it is no manifold");
-  group.add_count("--subdivide", job.subdivisions, "Steps of butterfly subdivision; contours stay curves of their own", 12);
-  group.add_choice("--boundary-rule", job.subdivide.boundary, kBoundaryRules, "Butterfly stencils at borders");
+  group.add_count("--subdivide", job.subdivisions,
+                  "Steps of butterfly subdivision; contours stay curves of their own", 12);
+  group.add_choice("--boundary-rule", job.subdivide.boundary, kBoundaryRules,
+                   "Butterfly stencils at borders");
   group.add_choice("--frames", job.read.sweep.frames, kFrameMethods, "Frames along the curves of .swp files");
   group.add_flag("--caps", job.read.sweep.caps, "Close the open ends of swept surfaces");
   const auto parse_patches = [&line](const std::string& text) {
@@ -135,24 +79,29 @@ void add_model_options(Group group, CommandLine& line) {
   };
   group.add_parsed("--patches", "RANGES", parse_patches, "Only these patches, as in 4,7-9; numbered from 1");
   group.add_text("--shell", line.job.selection.shell, "ID", "Only this shell");
-  group.add_flag("--strict", line.job.read.strict, "Anything that would be mended with a warning is an error");
-  group.add_count("--max-triangles", line.job.read.max_triangles, "Largest number of triangles over all instances");
+  group.add_flag("--strict", line.job.read.strict,
+                 "Anything that would be mended with a warning is an error");
+  group.add_count("--max-triangles", line.job.read.max_triangles,
+                  "Largest number of triangles over all instances");
   group.add_count("--max-instances", line.job.read.max_instances, "Largest number of placed shells");
 }
 
 void add_contour_options(Group group, CommandLine& line) {
   group.add_choice("--extractor", line.job.boundary.extractor, kExtractors, "How boundary edges are found");
-  group.add_flag("--compare", line.compare, "Run every extractor, print counts and times, fail if they disagree");
+  group.add_flag("--compare", line.compare,
+                 "Run every extractor, print counts and times, fail if they disagree");
   FitOptions& fit = line.job.fit;
   group.add_choice("--fit", fit.method, kFitMethods, "How loops become curves");
-  const auto parse_tolerance = [&fit](const std::string& text) { fit.tolerance = parse_positive(text, "--tolerance"); };
+  const auto parse_tolerance = [&fit](const std::string& text) {
+    fit.tolerance = parse_positive(text, "--tolerance");
+  };
   group.add_parsed("--tolerance", "LENGTH", parse_tolerance,
                    "Largest distance of curve and loop; without it 1e-4 of the loop's box diagonal");
   group.add_angle("--corner-angle", fit.corner_angle, 180, "A loop that turns by more has a corner");
 }
 
 void add_picture_options(Group group, RenderOptions& render, PictureTexts& texts) {
-  group.add_text("--layers", texts.layers, "WORDS", fmt::format("What is drawn, in this order: {}", words(kLayers)))
+  group.add_words("--layers", texts.layers, kLayers, "What is drawn, in this order")
       ->default_str(join_words(render.layers, kLayers));
   group.add_choice("--view", render.view, kViews, "Camera");
   group.add_text("--size", texts.size, "WxH", "Pixels, 1 to 16384 a side; --view report has 500x500")
@@ -163,22 +112,64 @@ void add_picture_options(Group group, RenderOptions& render, PictureTexts& texts
 }
 
 void add_run_options(Group group, CommandLine& line) {
-  group.add_count("-j,--jobs", line.threads, "Threads, with several inputs processes; 0: one per processor", 1024);
-  const auto parse_timeout = [&line](const std::string& text) { line.timeout = parse_positive(text, "--timeout"); };
+  group.add_count("-j,--jobs", line.threads, "Threads, with several inputs processes; 0: one per processor",
+                  1024);
+  const auto parse_timeout = [&line](const std::string& text) {
+    line.timeout = parse_positive(text, "--timeout");
+  };
   group.add_parsed("--timeout", "SECONDS", parse_timeout, "Longest time a file may take");
-  const auto parse_memory = [&line](const std::string& text) { line.max_memory = parse_bytes(text, "--max-memory"); };
+  const auto parse_memory = [&line](const std::string& text) {
+    line.max_memory = parse_bytes(text, "--max-memory");
+  };
   group.add_parsed("--max-memory", "SIZE", parse_memory, "Most memory a file may take, as in 500MB or 2GB");
-  group.add_text("--resume", line.resume, "JOURNAL", "Remember finished inputs there, and skip those it remembers");
+  group.add_text("--resume", line.resume, "JOURNAL",
+                 "Remember finished inputs there, and skip those it remembers");
   const auto parse_part = [&line](const std::string& text) { line.shard = parse_shard(text); };
   group.add_parsed("--shard", "I/N", parse_part, "Only the I-th of N parts of the inputs, for array jobs");
   group.add_count("--repeat", line.repeat, "Run every input so often; reports have the medians", 1000);
-  group.add_action("-q,--quiet", [&line] { line.verbosity = -1; }, "Errors only");
-  group.add_action("-v,--verbose", [&line] { line.verbosity = 1; }, "Notes too");
+  group.add_action(
+      "-q,--quiet", [&line] { line.verbosity = -1; }, "Errors only");
+  group.add_action(
+      "-v,--verbose", [&line] { line.verbosity = 1; }, "Notes too");
+}
+
+// Answers instead of a run.
+struct Questions {
+  bool manual = false, configuration = false;
+  std::optional<CommandShell> completion;
+};
+
+void add_questions(Group group, OptionTable& table, Questions& questions) {
+  const std::string name = kInformation;
+  table.parser.set_help_flag("-h,--help", "Print this help")->group(name);
+  table.parser
+      .set_version_flag("--version", version_text, "Print the version, of libraries too, and the renderers")
+      ->group(name);
+  group.add_flag("--manual", questions.manual, "Print the manual page: meshcontour --manual | man -l -");
+  const auto parse_shell = [&questions](const std::string& text) {
+    questions.completion = parse_choice(text, kCommandShells, "--completion");
+  };
+  group.add_parsed("--completion", "SHELL", parse_shell,
+                   "Print the script that completes the command line: " + words(kCommandShells));
+  table.parser.set_config("--config", "", "Read options from a TOML file; those of the command line win")
+      ->type_name("FILE")
+      ->group(name);
+  table.parser.allow_config_extras(CLI::config_extras_mode::error);
+  group.add_flag("--print-config", questions.configuration, "Print the options as such a file");
+}
+
+// Whether a question was asked; prints the answer.
+bool answer(const Questions& questions, const OptionTable& table) {
+  if (questions.manual) std::cout << manual_page(table);
+  if (questions.completion) std::cout << completion_script(table, *questions.completion);
+  if (questions.configuration) std::cout << configuration(table);
+  return questions.manual || questions.completion || questions.configuration;
 }
 
 std::string format_names() {
   std::string out;
-  for (const std::string_view name : output_format_names()) out += (out.empty() ? "" : ", ") + std::string(name);
+  for (const std::string_view name : output_format_names())
+    out += (out.empty() ? "" : ", ") + std::string(name);
   return out;
 }
 
@@ -188,7 +179,8 @@ std::string options_text(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();
     const bool matters = option->count() > 0 && name != "INPUT" && name != "--jobs" && name != "--resume" &&
-                         name != "--shard" && name != "--report" && name != "--quiet" && name != "--verbose";
+                         name != "--shard" && name != "--report" && name != "--quiet" &&
+                         name != "--verbose" && name != "--config";
     if (matters) text += fmt::format("{}={}\n", name, fmt::join(option->results(), ","));
   }
   return text;
@@ -201,9 +193,28 @@ std::string options_text(const CLI::App& app) {
 std::string output_path(const std::string& name, const std::string& input, std::size_t number, bool several) {
   const std::string path = fill_template(name, input, number);
   if (several && path == name && path != "-") {
-    usage(fmt::format("with several inputs the name of the output '{}' needs {{stem}} or {{n}}", printable(name)));
+    usage(fmt::format("with several inputs the name of the output '{}' needs {{stem}} or {{n}}",
+                      printable(name)));
   }
   return path;
+}
+
+// Nothing is left to do when it answers --help or --version.
+bool parse(OptionTable& table, int argc, const char* const* argv) {
+  try {
+    table.parser.parse(argc, argv);
+    return true;
+  } catch (const CLI::Success& success) {
+    table.parser.exit(success, std::cout, std::cerr);
+    return false;
+  } catch (const CLI::ExtrasError& error) {
+    const std::vector<std::string> unknown = table.parser.remaining();
+    const std::string nearest = unknown.empty() ? "" : nearest_option(table.parser, unknown.front());
+    if (nearest.empty()) usage(printable(error.what(), 1000));
+    usage(fmt::format("unknown option '{}'; did you mean {}?", printable(unknown.front(), 200), nearest));
+  } catch (const CLI::Error& error) {
+    usage(printable(error.what(), 1000));
+  }
 }
 
 }  // namespace
@@ -223,23 +234,21 @@ std::vector<std::string> output_paths(const Job& job) {
 std::optional<CommandLine> parse_command_line(int argc, const char* const* argv) {
   CommandLine line;
   PictureTexts texts;
-  CLI::App app("Contour curves of tessellated CAD models, headless.", "meshcontour");
-  app.set_version_flag("--version", fmt::format("meshcontour {}", version()));
+  Questions questions;
+  OptionTable table;
+  CLI::App& app = table.parser;
+  app.description("Contour curves of tessellated CAD models, headless.");
+  app.name("meshcontour");
+  app.formatter(help_formatter());
   app.footer(kFooter);
-  app.add_option("INPUT", line.inputs, "Files to read; - is standard input")->type_name("FILE");
-  add_output_options({app, "Outputs"}, line);
-  add_model_options({app, "Model"}, line);
-  add_contour_options({app, "Contours"}, line);
-  add_picture_options({app, "Pictures"}, line.job.render, texts);
-  add_run_options({app, "Run"}, line);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    app.exit(success, std::cout, std::cerr);
-    return std::nullopt;
-  } catch (const CLI::Error& error) {
-    usage(printable(error.what(), 1000));
-  }
+  app.add_option("INPUT", line.inputs, "Files or folders to read; - is standard input")->type_name("FILE");
+  add_output_options({table, "Outputs"}, line);
+  add_model_options({table, "Model"}, line);
+  add_contour_options({table, "Contours"}, line);
+  add_picture_options({table, "Pictures"}, line.job.render, texts);
+  add_run_options({table, "Run"}, line);
+  add_questions({table, kInformation}, table, questions);
+  if (!parse(table, argc, argv) || answer(questions, table)) return std::nullopt;
   if (line.inputs.empty()) usage("no input given");
 
   RenderOptions& render = line.job.render;

@@ -12,7 +12,7 @@ BELOW = {"base": set(), "model": {"base"}, "pipeline": {"base", "model"} | STAGE
 BELOW.update({stage: {"base", "model"} for stage in STAGES})
 # Where a library's headers may be included: a folder or a file's beginning.
 LIBRARIES = {
-    r"CLI/": ["app/command_line"],
+    r"CLI/": ["app/command_line", "app/documentation", "app/help", "app/option_group"],
     r"CGAL/|boost/": ["lib/include/meshcontour/surface_mesh.hpp", "lib/src/boundary/", "lib/src/graph/",
                       "lib/src/model/", "lib/src/multires/", "lib/src/sweep/", "tests/"],
     r"GL/|EGL/": ["lib/src/render/"],

@@ -69,6 +69,9 @@ struct Image {
 Image render(const Model& model, std::span<const ShellBoundary> boundaries, std::span<const Contour> contours,
              const RenderOptions& options);
 
+/// The names of the backends whose libraries are here, the preferred one first. Loads them.
+std::vector<std::string> renderers();
+
 /// The axes of a view in model coordinates: rows are the picture's right, its up, and towards the viewer.
 Eigen::Matrix3d view_axes(View view);
 

@@ -74,6 +74,15 @@ Image draw(Scene& scene, const GlSettings& settings, GlBackend wanted) {
 }  // namespace
 }  // namespace detail
 
+std::vector<std::string> renderers() {
+  std::vector<std::string> names;
+  std::string failure;
+  for (const GlBackend backend : detail::backends(GlBackend::Automatic)) {
+    if (detail::load_gl_module(backend, failure) != nullptr) names.emplace_back(detail::backend_name(backend));
+  }
+  return names;
+}
+
 Image render(const Model& model, std::span<const ShellBoundary> boundaries, std::span<const Contour> contours,
              const RenderOptions& options) {
   detail::check(model, boundaries, options);
