@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <mutex>
@@ -16,6 +17,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kDirectoryVariable = "MESHCONTOUR_GL_MODULES";
 constexpr int kFoldersAbove = 4;
+constexpr std::array kPrefixes = {MESHCONTOUR_GL_MODULE_PREFIX, "/usr/local",
+                                  "/usr"};  // for programs elsewhere
 
 struct Module {
   const char* name;
@@ -41,14 +44,16 @@ std::vector<fs::path> candidates(const std::string& file) {
   std::vector<fs::path> found;
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error) return found;
-  fs::path folder = program.parent_path();
-  for (int i = 0; i <= kFoldersAbove; ++i, folder = folder.parent_path()) {
-    const fs::path candidate = folder / MESHCONTOUR_GL_MODULE_FOLDER / file;
+  const auto add = [&](const fs::path& candidate) {
     const auto uid = owner(candidate);
     if (uid && (uid == uid_t{0} || uid == owner(program))) found.push_back(candidate);
+  };
+  fs::path folder = program.parent_path();
+  for (int i = 0; !error && i <= kFoldersAbove; ++i, folder = folder.parent_path()) {
+    add(folder / MESHCONTOUR_GL_MODULE_FOLDER / file);
     if (folder == folder.root_path()) break;
   }
+  for (const char* prefix : kPrefixes) add(fs::path(prefix) / MESHCONTOUR_GL_MODULE_FOLDER / file);
   return found;
 }
 
@@ -87,8 +92,8 @@ const GlApi* load_gl_module(GlBackend backend, std::string& failure) {
   const GlApi*& api = loaded[backend == GlBackend::Egl ? 1 : 0];
   if (api != nullptr) return api;
   const std::string file = fmt::format("meshcontour-gl-{}.so", module.name);
-  std::string why =
-      fmt::format("no {} in {} beside the program or above it", file, MESHCONTOUR_GL_MODULE_FOLDER);
+  std::string why = fmt::format("no {} in {} beside the program, above it or in {}", file,
+                                MESHCONTOUR_GL_MODULE_FOLDER, fmt::join(kPrefixes, ", "));
   for (const fs::path& candidate : candidates(file)) {
     api = open(candidate, why);
     if (api != nullptr) return api;
