@@ -9,6 +9,7 @@
 #include "meshcontour/fit.hpp"
 #include "meshcontour/render.hpp"
 #include "meshcontour/segmentation.hpp"
+#include "meshcontour/simplification.hpp"
 #include "meshcontour/subdivision.hpp"
 #include "meshcontour/sweep.hpp"
 #include "meshcontour/write.hpp"
@@ -52,6 +53,10 @@ inline constexpr Choices<PatchSource, 5> kPatchSources = {{{"auto", PatchSource:
                                                            {"none", PatchSource::None}}};
 inline constexpr Choices<BoundaryRule, 2> kBoundaryRules = {
     {{"reflect", BoundaryRule::Reflect}, {"trig", BoundaryRule::Trigonometric}}};
+inline constexpr Choices<SimplifyMethod, 3> kSimplifyMethods = {
+    {{"auto", SimplifyMethod::Automatic}, {"wavelet", SimplifyMethod::Wavelet}, {"qem", SimplifyMethod::Qem}}};
+inline constexpr Choices<SimplifyGoal, 3> kSimplifyGoals = {
+    {{"error", SimplifyGoal::Error}, {"ratio", SimplifyGoal::Ratio}, {"triangles", SimplifyGoal::Triangles}}};
 inline constexpr Choices<FrameMethod, 3> kFrameMethods = {{{"rmf", FrameMethod::RotationMinimizing},
                                                            {"mit", FrameMethod::Projection},
                                                            {"frenet", FrameMethod::Frenet}}};

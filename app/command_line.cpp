@@ -72,6 +72,10 @@ void add_model_options(Group group, CommandLine& line) {
                   "Steps of butterfly subdivision; contours stay curves of their own", 12);
   group.add_choice("--boundary-rule", job.subdivide.boundary, kBoundaryRules,
                    "Butterfly stencils at borders");
+  const auto parse_simplify = [&job](const std::string& text) { parse_simplification(text, job.simplify); };
+  group.add_parsed("--simplify", "GOAL", parse_simplify,
+                   "Fewer triangles: error:LENGTH (largest distance), ratio:SHARE or triangles:N");
+  group.add_choice("--simplify-method", job.simplify.method, kSimplifyMethods, "How");
   group.add_choice("--frames", job.read.sweep.frames, kFrameMethods, "Frames along the curves of .swp files");
   group.add_flag("--caps", job.read.sweep.caps, "Close the open ends of swept surfaces");
   const auto parse_patches = [&line](const std::string& text) {
@@ -220,7 +224,8 @@ bool parse(OptionTable& table, int argc, const char* const* argv) {
 }  // namespace
 
 void set_threads(Job& job, unsigned threads) {
-  job.read.threads = job.segment.threads = job.subdivide.threads = job.boundary.threads = job.fit.threads =
+  job.read.threads = job.segment.threads = job.subdivide.threads = job.simplify.threads =
+      job.boundary.threads = job.fit.threads =
       job.render.threads = threads;
 }
 
@@ -259,6 +264,7 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
   if (line.repeat == 0) refuse("--repeat", "0", "at least 1");
   set_threads(line.job, line.threads);
   line.job.write.view = render.view;
+  line.job.simplify.boundary = line.job.subdivide.boundary;
   line.job.write.timestamp = source_date_epoch().value_or(line.job.write.timestamp);
   line.options_text = options_text(app);
   return line;

@@ -83,6 +83,19 @@ std::pair<ReportFormat, std::string> parse_report_target(std::string_view text) 
   return {format.value_or(ReportFormat::Json), std::string(file)};
 }
 
+void parse_simplification(std::string_view text, SimplifyOptions& options) {
+  constexpr std::string_view kOption = "--simplify";
+  const std::size_t colon = text.find(':');
+  if (colon == text.npos) refuse(kOption, text, "error:LENGTH, ratio:SHARE or triangles:N");
+  options.goal = parse_choice(text.substr(0, colon), kSimplifyGoals, kOption);
+  const std::string_view value = text.substr(colon + 1);
+  options.value = parse_positive(value, kOption);
+  if (options.goal == SimplifyGoal::Ratio && options.value > 1) refuse(kOption, text, "a share of at most 1");
+  if (options.goal == SimplifyGoal::Triangles) {
+    options.value = static_cast<double>(parse_count(value, kOption, 1'000'000'000));
+  }
+}
+
 std::pair<int, int> parse_size(std::string_view text) {
   const std::size_t cross = text.find('x');
   const auto width = whole_number<int>(text.substr(0, cross));

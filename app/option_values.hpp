@@ -11,6 +11,7 @@
 #include "choices.hpp"
 #include "meshcontour/error.hpp"
 #include "meshcontour/report.hpp"
+#include "meshcontour/simplification.hpp"
 
 namespace meshcontour::app {
 
@@ -36,6 +37,9 @@ std::pair<std::size_t, std::size_t> parse_shard(std::string_view text);
 
 /// "FILE" or "FORMAT:FILE"; what stands before a colon and is no format is part of the file's name.
 std::pair<ReportFormat, std::string> parse_report_target(std::string_view text);
+
+/// "error:0.1", "ratio:0.25" or "triangles:5000" as goal and value.
+void parse_simplification(std::string_view text, SimplifyOptions& options);
 
 /// "1280x960"
 std::pair<int, int> parse_size(std::string_view text);

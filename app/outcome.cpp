@@ -17,7 +17,8 @@ void describe(const Run& run, const Job& job, const CommandLine& line, Outcome& 
   }
   outcome.report.counts = counts_of(run.model, run.boundaries, run.contours);
   if (output_paths(job).empty() && line.reports.empty()) {
-    outcome.output += summary(run.model, run.boundaries, run.contours, run.timings.stages());
+    outcome.output += summary(run.model, run.boundaries, run.contours, run.timings.stages(),
+                              run.simplifications);
   }
 }
 

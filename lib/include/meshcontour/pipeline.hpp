@@ -13,6 +13,7 @@
 #include "meshcontour/render.hpp"
 #include "meshcontour/report.hpp"
 #include "meshcontour/segmentation.hpp"
+#include "meshcontour/simplification.hpp"
 #include "meshcontour/subdivision.hpp"
 #include "meshcontour/write.hpp"
 
@@ -49,6 +50,7 @@ struct Job {
   PatchSelection selection;
   unsigned subdivisions = 0;  ///< steps of butterfly subdivision
   SubdivisionOptions subdivide;
+  SimplifyOptions simplify;   ///< after that
   BoundaryOptions boundary;
   FitOptions fit;
   RenderOptions render;
@@ -62,11 +64,12 @@ struct Run {
   Model model;
   std::vector<ShellBoundary> boundaries;
   std::vector<Contour> contours;
+  std::vector<Simplification> simplifications;  ///< one a shell, if that was asked for
   std::vector<Diagnostic> diagnostics;
   Timings timings;
 };
 
-/// Reads, cleans, segments, refines, extracts, fits, draws and writes: the one place that knows the order of the stages and times them.
+/// Reads, cleans, segments, refines, simplifies, extracts, fits, draws and writes: the one place that knows the order of the stages and times them.
 ///
 /// All outputs appear together once everything has succeeded, or none does.
 ///

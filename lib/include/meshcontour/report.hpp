@@ -12,6 +12,7 @@
 #include "meshcontour/boundary.hpp"
 #include "meshcontour/curve.hpp"
 #include "meshcontour/output.hpp"
+#include "meshcontour/simplification.hpp"
 
 namespace meshcontour {
 
@@ -77,9 +78,10 @@ Counts counts_of(const Model& model, std::span<const ShellBoundary> boundaries,
                  std::span<const Contour> contours);
 
 /// The table that is printed when no output is asked for: counts, the loops of each patch, the time of each
-/// stage. Of a model with many patches only those that stand out are listed.
+/// stage; and, where shells were simplified, how far. Of a model with many patches only those that stand out are listed.
 std::string summary(const Model& model, std::span<const ShellBoundary> boundaries,
-                    std::span<const Contour> contours, std::span<const StageTime> timings);
+                    std::span<const Contour> contours, std::span<const StageTime> timings,
+                    std::span<const Simplification> simplifications = {});
 
 /// What became of one input of a run.
 struct FileReport {

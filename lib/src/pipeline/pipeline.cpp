@@ -6,6 +6,7 @@
 #include "meshcontour/cleaning.hpp"
 #include "meshcontour/output.hpp"
 #include "pipeline/selection.hpp"
+#include "pipeline/simplification_report.hpp"
 #include "write/png.hpp"
 
 namespace meshcontour {
@@ -65,6 +66,11 @@ void prepare_model(const Job& job, Run& run) {
   const Counts counts = counts_of(run.model, {}, {});
   run.timings.count("segment", counts.patches);
   if (job.subdivisions > 0) run.timings.count("subdivide", counts.triangles);
+  if (job.simplify.goal != SimplifyGoal::None) {
+    run.timings.measure("simplify", [&] { run.simplifications = simplify_model(run.model, job.simplify); });
+    run.timings.count("simplify", counts.triangles);
+    detail::report_simplifications(job.simplify, run.simplifications, run.model);
+  }
   run.diagnostics = std::move(run.model.diagnostics);
 }
 

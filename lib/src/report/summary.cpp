@@ -177,10 +177,23 @@ std::string stage_table(std::span<const StageTime> timings) {
   return table.text();
 }
 
+std::string simplification_line(std::span<const Simplification> simplifications) {
+  std::uint64_t before = 0, after = 0;
+  double error = 0;
+  for (const Simplification& s : simplifications) {
+    before += s.triangles_before;
+    after += s.triangles_after;
+    error = std::max(error, s.error);
+  }
+  return fmt::format("simplified from {} to {}, at most {:.4g} apart\n", plural(before, "triangle", "triangles"), after,
+                     error);
+}
+
 }  // namespace
 
 std::string summary(const Model& model, std::span<const ShellBoundary> boundaries,
-                    std::span<const Contour> contours, std::span<const StageTime> timings) {
+                    std::span<const Contour> contours, std::span<const StageTime> timings,
+                    std::span<const Simplification> simplifications) {
   const Counts counts = counts_of(model, boundaries, contours);
   std::string out = counts_table(model, counts, !contours.empty());
   if (!boundaries.empty() && counts.patches > 0) {
@@ -193,6 +206,7 @@ std::string summary(const Model& model, std::span<const ShellBoundary> boundarie
     for (const Contour& contour : contours) kinds.add(contour);
     if (const std::string text = kinds.text(); !text.empty()) out += fmt::format("\ncurves: {}\n", text);
   }
+  if (!simplifications.empty()) out += fmt::format("\n{}", simplification_line(simplifications));
   if (!timings.empty()) out += fmt::format("\n{}", stage_table(timings));
   return out;
 }

@@ -1,0 +1,225 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "meshcontour/parallel.hpp"
+#include "meshcontour/simplification.hpp"
+#include "multires/triangle_tree.hpp"
+
+namespace meshcontour {
+namespace {
+
+using detail::Corners;
+using detail::TriangleTree;
+
+constexpr double kSlack = 0.02;       // a bound so close above the largest distance seen is good enough
+constexpr double kResolution = 1e-7;  // of the size: distances below need not be told apart
+constexpr std::size_t kGrain = 256;
+
+using Polygon = std::vector<Point>;  // convex
+
+// A part of one triangle.
+struct Part {
+  Polygon polygon;
+  std::optional<Index> cut_by = {};  // the triangle beyond one of whose sides it lies
+};
+
+Point centre_of(const Polygon& polygon) {
+  Point sum = Point::Zero();
+  for (const Point& p : polygon) sum += p;
+  return sum / static_cast<double>(polygon.size());
+}
+
+// The parts of a polygon on both sides of a plane; a side with less than a triangle is empty.
+std::pair<Polygon, Polygon> split(const Polygon& polygon, const Point& origin, const Vector& normal) {
+  std::pair<Polygon, Polygon> parts;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const double a = normal.dot(p - origin), b = normal.dot(q - origin);
+    if (a >= 0) parts.first.push_back(p);
+    if (a <= 0) parts.second.push_back(p);
+    if ((a > 0 && b < 0) || (a < 0 && b > 0)) {
+      const Point cut = p + a / (a - b) * (q - p);
+      parts.first.push_back(cut);
+      parts.second.push_back(cut);
+    }
+  }
+  // What lies in the plane as a whole belongs to the first side.
+  const bool flat = parts.first.size() == polygon.size() && parts.second.size() == polygon.size();
+  if (parts.first.size() < 3) parts.first.clear();
+  if (parts.second.size() < 3 || flat) parts.second.clear();
+  return parts;
+}
+
+// How far the surface in a tree is from parts of a triangle.
+class Overlay {
+ public:
+  /// Bounds of at most `enough` are not improved.
+  Overlay(const TriangleTree& tree, double enough, double resolution)
+      : tree_(tree), enough_(enough), resolution_(resolution) {}
+
+  void measure(const Corners& triangle) {
+    parts_.assign(1, {Polygon(triangle.begin(), triangle.end())});
+    while (!parts_.empty()) {
+      const Part part = std::move(parts_.back());
+      parts_.pop_back();
+      settle(part);
+    }
+  }
+
+  /// Over all that was measured.
+  const SurfaceDistance& distance() const { return distance_; }
+
+ private:
+  struct Corner {
+    double distance = -1;
+    Point point = Point::Zero();
+  };
+
+  // The distance to a triangle is convex, so a corner of the polygon has the largest.
+  Corner farthest(const Polygon& part, const Corners& triangle) const {
+    Corner worst;
+    for (const Point& p : part) {
+      const double distance = (detail::nearest_point(triangle, p) - p).norm();
+      if (distance > worst.distance) worst = {distance, p};
+    }
+    return worst;
+  }
+
+  void see(double distance) {
+    distance_.lower = std::max(distance_.lower, distance);
+    enough_ = std::max(enough_, (1 + kSlack) * distance);
+  }
+
+  bool accepts(double bound) {
+    if (bound > enough_) return false;
+    distance_.upper = std::max(distance_.upper, bound);
+    return true;
+  }
+
+  // Takes a polygon's bound, or pushes the parts that need a closer look.
+  void settle(const Part& whole) {
+    const Polygon& part = whole.polygon;
+    const Point centre = centre_of(part);
+    const TriangleTree::Hit hit = tree_.nearest(centre);
+    const double at_centre = std::sqrt(hit.squared);
+    see(at_centre);
+    const Corners& triangle = tree_.corners(hit.triangle);
+    double radius = 0;
+    for (const Point& p : part) radius = std::max(radius, (p - centre).norm());
+    const Corner worst = farthest(part, triangle);
+    const double bound = std::min(worst.distance, at_centre + radius);
+    if (accepts(bound)) return;
+    see(std::sqrt(tree_.nearest(worst.point).squared));
+    if (accepts(bound)) return;
+    if (radius <= resolution_) {
+      distance_.upper = std::max(distance_.upper, bound);
+    } else if (whole.cut_by == hit.triangle || !clip(part, hit.triangle)) {
+      halve(part, centre);
+    }
+  }
+
+  // Cuts off what lies beyond the sides of the triangle; false if that is nothing or everything.
+  bool clip(const Polygon& part, Index number) {
+    const Corners& triangle = tree_.corners(number);
+    const Vector normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+    Polygon inside = part;
+    std::vector<Part> outside;
+    for (std::size_t k = 0; k < 3 && !inside.empty(); ++k) {
+      auto [in, out] = split(inside, triangle[k], normal.cross(triangle[(k + 1) % 3] - triangle[k]));
+      inside = std::move(in);
+      if (!out.empty()) outside.push_back({std::move(out), number});
+    }
+    if (inside.empty() || outside.empty()) return false;
+    if (!accepts(farthest(inside, triangle).distance)) halve(inside, centre_of(inside));
+    std::ranges::move(outside, std::back_inserter(parts_));
+    return true;
+  }
+
+  void halve(const Polygon& part, const Point& centre) {
+    Vector longest = Vector::Zero();
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const Vector side = part[(i + 1) % part.size()] - part[i];
+      if (side.squaredNorm() > longest.squaredNorm()) longest = side;
+    }
+    auto [one, other] = split(part, centre, longest);
+    if (!one.empty()) parts_.push_back({std::move(one)});
+    if (!other.empty()) parts_.push_back({std::move(other)});
+  }
+
+  const TriangleTree& tree_;
+  double enough_, resolution_;
+  SurfaceDistance distance_;
+  std::vector<Part> parts_;
+};
+
+// The largest over the triangles of one surface; every triangle's part depends on itself alone.
+template <class Measure>
+SurfaceDistance largest(std::size_t count, unsigned threads, const Measure& measure) {
+  std::vector<SurfaceDistance> found((count + kGrain - 1) / kGrain);
+  parallel_for(found.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t block = begin; block < end; ++block) {
+      found[block] = measure(block * kGrain, std::min(count, (block + 1) * kGrain));
+    }
+  });
+  SurfaceDistance all;
+  for (const SurfaceDistance& d : found) {
+    all.lower = std::max(all.lower, d.lower);
+    all.upper = std::max(all.upper, d.upper);
+  }
+  return all;
+}
+
+// A first look: the corners alone.
+double corner_distance(const TriangleTree& from, const TriangleTree& to, unsigned threads) {
+  return largest(from.size(), threads,
+                 [&](std::size_t begin, std::size_t end) {
+                   double squared = 0;
+                   for (std::size_t t = begin; t < end; ++t) {
+                     for (const Point& p : from.corners(static_cast<Index>(t))) {
+                       squared = std::max(squared, to.nearest(p).squared);
+                     }
+                   }
+                   return SurfaceDistance{std::sqrt(squared), 0};
+                 })
+      .lower;
+}
+
+SurfaceDistance one_sided(const TriangleTree& from, const TriangleTree& to, double enough, double resolution,
+                          unsigned threads) {
+  return largest(from.size(), threads, [&](std::size_t begin, std::size_t end) {
+    Overlay overlay(to, enough, resolution);
+    for (std::size_t t = begin; t < end; ++t) overlay.measure(from.corners(static_cast<Index>(t)));
+    return overlay.distance();
+  });
+}
+
+}  // namespace
+
+SurfaceDistance patch_distance(const Shell& a, const Shell& b, unsigned threads) {
+  if (a.patches.size() != b.patches.size()) {
+    throw Error(ErrorCode::Internal, fmt::format("{} patches and {}", a.patches.size(), b.patches.size()));
+  }
+  SurfaceDistance all;
+  const double resolution = kResolution * bounding_box(a).diagonal().norm();
+  for (std::size_t p = 0; p < a.patches.size(); ++p) {
+    const TriangleTree one(a.points, a.patch_triangles(p)), other(b.points, b.patch_triangles(p));
+    if (one.size() == 0 && other.size() == 0) continue;
+    if (one.size() == 0 || other.size() == 0)
+      throw Error(ErrorCode::Internal, fmt::format("patch {} is gone", p + 1));
+    all.lower =
+        std::max({all.lower, corner_distance(one, other, threads), corner_distance(other, one, threads)});
+    const double enough = (1 + kSlack) * all.lower + resolution;
+    for (const SurfaceDistance& d : {one_sided(one, other, enough, resolution, threads),
+                                     one_sided(other, one, enough, resolution, threads)}) {
+      all.lower = std::max(all.lower, d.lower);
+      all.upper = std::max(all.upper, d.upper);
+    }
+  }
+  all.upper = std::max(all.upper, all.lower);
+  return all;
+}
+
+}  // namespace meshcontour

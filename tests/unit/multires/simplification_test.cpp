@@ -1,0 +1,144 @@
+#include "meshcontour/simplification.hpp"
+
+#include "meshcontour/cleaning.hpp"
+#include "multires/triangle_tree.hpp"
+#include "support/catch.hpp"
+#include "support/dirty_meshes.hpp"
+#include "surfaces.hpp"
+
+using namespace meshcontour;
+
+namespace {
+
+Shell simplified(Shell shell, SimplifyGoal goal, double value, unsigned threads = 1) {
+  SimplifyOptions options;
+  options.method = SimplifyMethod::Qem;
+  options.goal = goal;
+  options.value = value;
+  options.threads = threads;
+  simplify_shell(shell, options, static_cast<std::size_t>(value));
+  return shell;
+}
+
+// Distances of points spread over one surface to all triangles of the other, patch to patch.
+double sampled_distance(const Shell& from, const Shell& to) {
+  double worst = 0;
+  for (std::size_t p = 0; p < from.patches.size(); ++p) {
+    for (const Triangle& t : from.patch_triangles(p)) {
+      for (int i = 0; i <= 2; ++i) {
+        for (int j = 0; i + j <= 2; ++j) {
+          const Point q =
+              (i * from.points[t[0]] + j * from.points[t[1]] + (2 - i - j) * from.points[t[2]]) / 2;
+          double nearest = 1e300;
+          for (const Triangle& u : to.patch_triangles(p)) {
+            const detail::Corners corners = {to.points[u[0]], to.points[u[1]], to.points[u[2]]};
+            nearest = std::min(nearest, (detail::nearest_point(corners, q) - q).norm());
+          }
+          worst = std::max(worst, nearest);
+        }
+      }
+    }
+  }
+  return worst;
+}
+
+Shell sample_surface(int kind) {
+  if (kind == 0) return surfaces::bumpy_sphere(3);
+  if (kind == 1) return surfaces::shuffled(surfaces::bumpy_sphere(3), 7);
+  if (kind == 2) return surfaces::height_field(16, true);
+  return surfaces::shuffled(surfaces::height_field(20, true), 5);
+}
+
+}  // namespace
+
+TEST_CASE("simplify_shell: loops lose vertices and nothing else, topology stays", "[multires]") {
+  const Shell before = sample_surface(GENERATE(range(0, 4)));
+  const double share = GENERATE(0.7, 0.3, 0.05);
+  const Shell after = simplified(before, SimplifyGoal::Triangles, share * double(before.triangles.size()));
+  CHECK(after.triangles.size() < before.triangles.size());
+  const surfaces::Topology was = surfaces::topology_of(before), is = surfaces::topology_of(after);
+  CHECK(is.manifold);
+  CHECK(is.euler == was.euler);
+  CHECK(surfaces::loops_thinned(before, after));
+  for (const Patch& patch : after.patches) CHECK(patch.triangle_count > 0);
+}
+
+TEST_CASE("simplify_shell: the number of triangles is reached where nothing stands against it",
+          "[multires]") {
+  const Shell after = simplified(surfaces::bumpy_sphere(4), SimplifyGoal::Triangles, 300);
+  CHECK(after.triangles.size() <= 300);
+  CHECK(after.triangles.size() >= 298);
+}
+
+TEST_CASE("simplify_shell: the error asked for is kept", "[multires]") {
+  const Shell before = sample_surface(GENERATE(range(0, 4)));
+  const double error = GENERATE(0.03, 0.005);
+  Shell after = before;
+  SimplifyOptions options;
+  options.method = SimplifyMethod::Qem;
+  options.goal = SimplifyGoal::Error;
+  options.value = error;
+  const Simplification result = simplify_shell(after, options, 0);
+  CHECK(result.error <= error);
+  CHECK(result.triangles_after == after.triangles.size());
+  const double sampled = std::max(sampled_distance(before, after), sampled_distance(after, before));
+  CHECK(sampled <= result.error + 1e-12);
+  CHECK(sampled >= 0.8 * result.error);
+  if (error > 0.01) CHECK(after.triangles.size() < before.triangles.size() * 3 / 4);
+}
+
+TEST_CASE("simplify_shell: flat patches become as few triangles as their outline allows", "[multires]") {
+  const Shell after = simplified(surfaces::height_field(16, false, 0), SimplifyGoal::Error, 1e-6);
+  // Six corners of two rectangles, and the vertices at which their loops begin.
+  CHECK(after.triangles.size() <= 8);
+}
+
+TEST_CASE("simplify_shell: the same bits for any number of threads", "[multires]") {
+  const Shell before = surfaces::shuffled(surfaces::bumpy_sphere(4), 3);
+  const Shell one = simplified(before, SimplifyGoal::Error, 0.01, 1),
+              many = simplified(before, SimplifyGoal::Error, 0.01, 4);
+  CHECK(one.points == many.points);
+  CHECK(one.triangles == many.triangles);
+}
+
+TEST_CASE("simplify_shell: what is no manifold stays, and nothing breaks", "[multires][error]") {
+  std::mt19937 random(11);
+  for (int trial = 0; trial < 60; ++trial) {
+    Shell before = dirty::soup(random, static_cast<Index>(4 + random() % 12), 3 + random() % 40);
+    if (trial % 2 == 0)
+      before = dirty::with_triangles(surfaces::octahedron(), {{0, 2, 1}, {0, 2, 4}, {1, 1, 3}});
+    drop_unused_points(before);
+    const Shell after = simplified(before, SimplifyGoal::Triangles, 1);
+    CHECK(after.triangles.size() >= 1);
+    CHECK(after.triangles.size() <= before.triangles.size());
+    for (const Triangle& t : after.triangles) {
+      for (const Index v : t) CHECK(v < after.points.size());
+    }
+  }
+  const Shell fin = simplified(dirty::fin(), SimplifyGoal::Triangles, 1);
+  CHECK(fin.triangles.size() == 3);
+}
+
+TEST_CASE("patch_distance: what can be told by hand", "[multires]") {
+  const Shell flat = surfaces::height_field(8, false, 0);
+  Shell moved = surfaces::height_field(5, false, 0);
+  for (Point& p : moved.points) p.z() += 0.25;
+  const SurfaceDistance apart = patch_distance(flat, flat);
+  CHECK(apart.upper <= 1e-12);
+  // The patches of the odd grid meet elsewhere: at 2/5 or 3/5 instead of 1/2.
+  const SurfaceDistance d = patch_distance(flat, moved);
+  const double expected = std::hypot(0.25, 0.1);
+  CHECK(d.lower <= expected + 1e-12);
+  CHECK(d.upper >= expected - 1e-12);
+  CHECK(d.upper <= 1.03 * d.lower);
+}
+
+TEST_CASE("patch_distance: a dent between the corners is seen", "[multires]") {
+  const Shell flat = surfaces::height_field(2, false, 0);
+  Shell dented = surfaces::height_field(64, false, 0);
+  dented.points[17 * 65 + 40].z() = 0.125;
+  const SurfaceDistance d = patch_distance(flat, dented);
+  CHECK(d.lower <= 0.125 + 1e-12);
+  CHECK(d.upper >= 0.125 - 1e-12);
+  CHECK(d.upper <= 0.13);
+}
