@@ -26,7 +26,8 @@ std::vector<std::string> models_below(const fs::path& folder) {
   try {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
       const bool model = std::ranges::find(known, lower_case_extension(entry.path())) != known.end();
-      if (model && entry.is_regular_file()) files.push_back(entry.path().string());
+      std::error_code unknown;  // a link to nowhere is a file that cannot be read, and is named as one
+      if (model && !entry.is_directory(unknown)) files.push_back(entry.path().string());
     }
   } catch (const fs::filesystem_error& error) {
     throw Error(ErrorCode::NoInput, fmt::format("cannot list the folder: {}", error.code().message()),
@@ -55,7 +56,8 @@ std::vector<std::string> expand_inputs(const std::vector<std::string>& inputs) {
   return files;
 }
 
-std::vector<std::string> take_shard(const std::vector<std::string>& inputs, std::pair<std::size_t, std::size_t> shard) {
+std::vector<std::string> take_shard(const std::vector<std::string>& inputs,
+                                    std::pair<std::size_t, std::size_t> shard) {
   std::vector<std::string> part;
   for (std::size_t i = shard.first - 1; i < inputs.size(); i += shard.second) part.push_back(inputs[i]);
   return part;

@@ -13,7 +13,8 @@ namespace {
 void describe(const Run& run, const Job& job, const CommandLine& line, Outcome& outcome) {
   for (const Diagnostic& diagnostic : run.diagnostics) {
     const bool warning = diagnostic.severity == Diagnostic::Severity::Warning;
-    if (line.verbosity >= (warning ? 0 : 1)) outcome.errors += fmt::format("meshcontour: {}\n", diagnostic.text());
+    if (line.verbosity >= (warning ? 0 : 1))
+      outcome.errors += fmt::format("meshcontour: {}\n", diagnostic.text());
   }
   outcome.report.counts = counts_of(run.model, run.boundaries, run.contours);
   if (output_paths(job).empty() && line.reports.empty()) {
@@ -47,11 +48,13 @@ Outcome run_job(const Job& job, const CommandLine& line) {
   try {
     run_repeatedly(job, line, outcome);
   } catch (const Error& error) {
-    fail(error.code(), error.what(), outcome);
+    const std::string input = error.spot().file.empty() ? printable(job.input) + ": " : "";
+    fail(error.code(), input + error.what(), outcome);
   } catch (const std::bad_alloc&) {
     fail(ErrorCode::OutOfMemory, printable(job.input) + ": out of memory", outcome);
   } catch (const std::exception& error) {
-    fail(ErrorCode::Internal, fmt::format("{}: internal error: {}", printable(job.input), error.what()), outcome);
+    fail(ErrorCode::Internal, fmt::format("{}: internal error: {}", printable(job.input), error.what()),
+         outcome);
   }
   outcome.report.peak_memory = peak_memory();
   return outcome;

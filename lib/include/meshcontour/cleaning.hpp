@@ -57,6 +57,10 @@ std::size_t drop_degenerate_triangles(Shell& shell);
 std::size_t drop_degenerate_and_duplicate_triangles(Shell& shell, std::vector<Diagnostic>& diagnostics,
                                                     unsigned threads = 0);
 
+/// Whether a triangle has an area: twice it is more than 1e-12 of the square of its longest side. False where all
+/// points lie on a line. Looks no further than the first such triangle.
+bool has_area(const Shell& shell);
+
 /// Number of points that no triangle uses.
 std::size_t count_unused_points(const Shell& shell);
 

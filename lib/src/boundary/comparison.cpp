@@ -31,7 +31,7 @@ std::vector<Index> ends_of(const std::vector<BoundaryEdge>& edges) {
   std::vector<Index> ends;
   for (const auto& [from, to] : edges) ends.insert(ends.end(), {from, to});
   std::ranges::sort(ends);
-  ends.erase(std::ranges::unique(ends).begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   return ends;
 }
 

@@ -120,7 +120,10 @@ class EndPairing {
 
   // From a boundary spoke across triangles to the next spoke that does not have just two of them.
   static Index walk_fan(Index spoke, std::span<const Corner> corners, std::span<const Spoke> spokes) {
-    const auto at = [&](Index v) { return std::ranges::equal_range(spokes, v, {}, &Spoke::neighbour); };
+    const auto at = [&](Index v) {
+      const auto first = std::ranges::lower_bound(spokes, v, {}, &Spoke::neighbour);
+      return std::span(first, std::ranges::upper_bound(first, spokes.end(), v, {}, &Spoke::neighbour));
+    };
     auto here = at(spoke);
     if (here.size() != 1) return spoke;
     for (std::size_t corner = here[0].corner;;) {

@@ -30,7 +30,7 @@ class Numbering {
     vertices_.reserve(3 * triangles.size());
     for (const Triangle& t : triangles) vertices_.insert(vertices_.end(), t.begin(), t.end());
     std::ranges::sort(vertices_);
-    vertices_.erase(std::ranges::unique(vertices_).begin(), vertices_.end());
+    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
   }
 
   std::size_t size() const { return vertices_.size(); }

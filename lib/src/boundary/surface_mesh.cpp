@@ -236,7 +236,7 @@ class BorderWalk {
       edges.push_back(edge(h));
     }
     const auto first = std::ranges::min_element(halfedges, {}, [&](Halfedge h) { return edge(h); });
-    std::ranges::rotate(halfedges, first);
+    std::rotate(halfedges.begin(), first, halfedges.end());
     const bool backwards = flipped_[mesh_.face(halfedges[0])];
     if (backwards) std::ranges::reverse(halfedges.begin() + 1, halfedges.end());
     BoundaryLoop loop;

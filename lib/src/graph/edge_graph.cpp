@@ -48,7 +48,7 @@ auto find_vertex(const EdgeGraph& edges, Index number) {
 template <typename Item>
 void keep_different(std::vector<Item>& items) {
   std::ranges::sort(items);
-  items.erase(std::ranges::unique(items).begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
 }  // namespace

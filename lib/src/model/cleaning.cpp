@@ -108,6 +108,15 @@ void report(const CleaningCounts& counts, const Spot& spot, std::vector<Diagnost
 
 }  // namespace
 
+bool has_area(const Shell& shell) {
+  constexpr double kThinnest = 1e-12;
+  return std::ranges::any_of(shell.triangles, [&](const Triangle& t) {
+    const Vector a = shell.points[t[1]] - shell.points[t[0]], b = shell.points[t[2]] - shell.points[t[0]];
+    const double longest = std::max({a.stableNorm(), b.stableNorm(), (b - a).stableNorm()});
+    return longest > 0 && (a / longest).cross(b / longest).norm() > kThinnest;
+  });
+}
+
 std::size_t count_unused_points(const Shell& shell) {
   return static_cast<std::size_t>(std::ranges::count(used_points(shell), 0));
 }

@@ -25,7 +25,8 @@ class Targets {
   }
 
   void write(Run& run, const std::vector<std::uint8_t>& png) {
-    Result result{run.model, run.boundaries, run.contours, extractor_name(job_.boundary.extractor), run.diagnostics};
+    Result result{run.model, run.boundaries, run.contours, extractor_name(job_.boundary.extractor),
+                  run.diagnostics};
     if (job_.timings_in_json) result.timings = run.timings.stages();
     std::vector<Diagnostic> notes;
     for (std::size_t i = 0; i < outputs_.size(); ++i) {
@@ -48,9 +49,20 @@ class Targets {
   std::vector<Sink*> outputs_, meshes_;
 };
 
+std::string input_name(const Job& job) {
+  return job.input == "-" ? "/dev/stdin" : job.input;
+}
+
+// Later stages know no file; in a batch every line must name one.
+void name_file(const Job& job, Run& run) {
+  for (Diagnostic& diagnostic : run.diagnostics) {
+    if (diagnostic.spot.file.empty()) diagnostic.spot.file = input_name(job);
+  }
+}
+
 void prepare_model(const Job& job, Run& run) {
   run.timings.measure("read", [&] {
-    run.model = read_model(job.input == "-" ? "/dev/stdin" : job.input, job.read);
+    run.model = read_model(input_name(job), job.read);
     if (job.repair) repair_model(run.model, job.segment.threads);
   });
   run.timings.count("read", counts_of(run.model, {}, {}).triangles);
@@ -77,8 +89,9 @@ void prepare_model(const Job& job, Run& run) {
 void find_contours(const Job& job, Run& run) {
   run.timings.measure("boundary",
                       [&] { run.boundaries = extract_boundaries(run.model, job.boundary, run.diagnostics); });
-  run.timings.measure("fit",
-                      [&] { run.contours = fit_contours(run.model, run.boundaries, job.fit, run.diagnostics); });
+  run.timings.measure(
+      "fit", [&] { run.contours = fit_contours(run.model, run.boundaries, job.fit, run.diagnostics); });
+  name_file(job, run);
   const Counts counts = counts_of(run.model, run.boundaries, run.contours);
   run.timings.count("boundary", counts.boundary_edges);
   run.timings.count("fit", counts.loops + counts.open_chains);
@@ -102,6 +115,7 @@ Run run(const Job& job) {
   find_contours(job, run);
   const std::vector<std::uint8_t> png = draw(job, run);
   run.timings.measure("write", [&] { targets.write(run, png); });
+  name_file(job, run);
   run.timings.count("write", job.outputs.size() + job.meshes.size());
   return run;
 }

@@ -8,7 +8,9 @@ namespace meshcontour::detail {
 namespace {
 
 bool holds(const PatchSelection& selection, std::size_t patch) {
-  const auto in_range = [&](const auto& range) { return range.first <= patch + 1 && patch + 1 <= range.second; };
+  const auto in_range = [&](const auto& range) {
+    return range.first <= patch + 1 && patch + 1 <= range.second;
+  };
   return selection.patches.empty() || std::ranges::any_of(selection.patches, in_range);
 }
 
@@ -17,8 +19,11 @@ void keep_creases(Shell& shell) {
   std::vector<bool> used(shell.creases.size(), false);
   for (const Triangle& t : shell.triangles) {
     for (const auto& [a, b] : {std::minmax(t[0], t[1]), std::minmax(t[1], t[2]), std::minmax(t[2], t[0])}) {
-      const auto found = std::ranges::equal_range(shell.creases, std::array<Index, 2>{a, b});
-      if (!found.empty()) used[static_cast<std::size_t>(found.begin() - shell.creases.begin())] = true;
+      const std::array<Index, 2> side{a, b};
+      const auto found = std::ranges::lower_bound(shell.creases, side);
+      if (found != shell.creases.end() && *found == side) {
+        used[static_cast<std::size_t>(found - shell.creases.begin())] = true;
+      }
     }
   }
   std::size_t next = 0;
@@ -64,7 +69,8 @@ void keep_selection(Model& model, const PatchSelection& selection) {
   if (kept > 0) return;
   const auto is_chosen = [&](const Shell& shell) { return shell.id == selection.shell; };
   if (!selection.shell.empty() && std::ranges::none_of(model.shells, is_chosen)) {
-    throw Error(ErrorCode::Usage, fmt::format("--shell: the model has no shell '{}'", printable(selection.shell)));
+    throw Error(ErrorCode::Usage,
+                fmt::format("--shell: the model has no shell '{}'", printable(selection.shell)));
   }
   throw Error(ErrorCode::Usage,
               fmt::format("--patches: none of these patches exists; the largest number is {}", most));

@@ -1,7 +1,10 @@
 #include "meshcontour/read.hpp"
 
 #include <optional>
+#include <utility>
 
+#include "meshcontour/cleaning.hpp"
+#include "read/findings.hpp"
 #include "read/format.hpp"
 
 namespace meshcontour {
@@ -10,7 +13,22 @@ using namespace detail;
 
 namespace {
 
+void warn_of_flat_shells(Model& model, const std::string& file) {
+  Findings findings;
+  for (const Shell& shell : model.shells) {
+    if (shell.triangles.empty() || has_area(shell)) continue;
+    findings.warn("flat", [&] {
+      return std::pair("no triangle of the shell has an area, as if all its points lay on a line",
+                       Spot{file, 0, 0, "shell " + printable(shell.id, 80)});
+    });
+  }
+  model.diagnostics.insert(model.diagnostics.end(), findings.diagnostics().begin(),
+                           findings.diagnostics().end());
+}
+
 Model checked(Model model, const ReadContext& context) {
+  validate(model);
+  warn_of_flat_shells(model, context.name);
   if (context.options.strict) {
     for (const Diagnostic& diagnostic : model.diagnostics) {
       if (diagnostic.severity == Diagnostic::Severity::Warning) {
@@ -19,7 +37,6 @@ Model checked(Model model, const ReadContext& context) {
     }
   }
   if (model.name.empty()) model.name = std::filesystem::path(context.name).stem().string();
-  validate(model);
   return model;
 }
 

@@ -94,7 +94,7 @@ void insert_crossings(const SweepCurve& curve, const SampledCurve& samples, doub
 void open_at_pole(Profile& profile) {
   const auto pole = std::ranges::find_if(profile.points, is_pole);
   if (!profile.closed || pole == profile.points.end()) return;
-  std::ranges::rotate(profile.points, pole);
+  std::rotate(profile.points.begin(), pole, profile.points.end());
   profile.points.push_back(profile.points.front());
   profile.closed = false;
 }

@@ -250,3 +250,14 @@ TEST_CASE("drop_unused_points: the rest keep their order", "[model][cleaning]") 
   CHECK(shell.triangles == std::vector<Triangle>{{2, 0, 1}});
   CHECK(shell.points[2] == Point(4, 0, 0));
 }
+
+TEST_CASE("has_area: points on a line, or all alike, have none", "[model][cleaning]") {
+  const std::vector<Triangle> square = {{0, 1, 2}, {0, 2, 3}};
+  const Point direction(0.1, -0.7, 0.3), start(1e3, 2e3, -5e2);
+  const auto on_line = [&](double t) { return Point(start + t * direction); };
+  CHECK_FALSE(has_area(dirty::make_shell({on_line(0), on_line(1), on_line(2.5), on_line(7)}, square)));
+  CHECK_FALSE(has_area(dirty::make_shell({start, start, start, start}, square)));
+  CHECK_FALSE(has_area(dirty::make_shell({}, {})));
+  CHECK(has_area(dirty::make_shell({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1e-9, 0}}, square)));
+  CHECK(has_area(dirty::make_shell({{0, 0, 0}, {1e99, 0, 0}, {1e99, 1e99, 0}, {0, 1e-99, 0}}, square)));
+}

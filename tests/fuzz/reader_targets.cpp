@@ -1,0 +1,76 @@
+// Every reader either gives a model that keeps the promises of validate(), or an Error.
+
+#include <string>
+
+#include "fuzz/targets.hpp"
+#include "meshcontour/read.hpp"
+#include "read/webxml.hpp"
+#include "unit/read/webxml_text.hpp"
+
+namespace fuzz {
+namespace {
+
+using namespace meshcontour;
+
+ReadOptions limits() {
+  ReadOptions options;
+  options.max_triangles = 20'000;
+  options.max_instances = 1'000;
+  options.threads = 1;
+  return options;
+}
+
+std::string_view text_of(Bytes input) {
+  return {reinterpret_cast<const char*>(input.data()), input.size()};
+}
+
+// What a reader makes of an input: its model bit by bit, or its message.
+template <typename Read>
+std::string outcome(const Read& read) {
+  try {
+    const Model model = read();
+    validate(model);
+    return webxml_text::fingerprint(model) + webxml_text::texts(model.diagnostics);
+  } catch (const Error& error) {
+    require(error.code() != ErrorCode::Internal, error.what());
+    return error.what();
+  }
+}
+
+void read_named(Bytes input, const char* name) {
+  const ReadOptions options = limits();
+  outcome([&] { return read_model(text_of(input), name, options); });
+}
+
+}  // namespace
+
+void read_webxml_both_ways(Bytes input) {
+  const ReadOptions options = limits();
+  const detail::ReadContext context{"m.xml", options};
+  const std::string scanned = outcome([&] { return detail::read_webxml(text_of(input), context); });
+  const std::string parsed = outcome([&] { return detail::read_webxml_carefully(text_of(input), context); });
+  require(scanned == parsed,
+          "the two ways of reading differ:\n" + scanned.substr(0, 400) + "\n" + parsed.substr(0, 400));
+}
+
+void read_swp(Bytes input) {
+  read_named(input, "m.swp");
+}
+
+void read_stl(Bytes input) {
+  read_named(input, "m.stl");
+}
+
+void read_obj(Bytes input) {
+  read_named(input, "m.obj");
+}
+
+void read_ply(Bytes input) {
+  read_named(input, "m.ply");
+}
+
+void read_off(Bytes input) {
+  read_named(input, "m.off");
+}
+
+}  // namespace fuzz
