@@ -77,7 +77,10 @@ std::vector<T> parse_choices(std::string_view text, const Choices<T, N>& choices
 template <class T, std::size_t N>
 std::string join_words(const std::vector<T>& values, const Choices<T, N>& choices) {
   std::string out;
-  for (const T value : values) out += (out.empty() ? "" : ",") + word_of(choices, value);
+  for (const T value : values) {
+    if (!out.empty()) out += ',';
+    out += word_of(choices, value);
+  }
   return out;
 }
 
