@@ -36,6 +36,7 @@ inline constexpr Choices<View, 8> kViews = {{{"iso", View::Iso},
                                              {"top", View::Top},
                                              {"bottom", View::Bottom},
                                              {"report", View::Report}}};
+inline constexpr Choices<UpAxis, 3> kUpAxes = {{{"x", UpAxis::X}, {"y", UpAxis::Y}, {"z", UpAxis::Z}}};
 inline constexpr Choices<ColorBy, 4> kColorings = {
     {{"file", ColorBy::File}, {"patch", ColorBy::Patch}, {"layer", ColorBy::Layer}, {"type", ColorBy::Type}}};
 inline constexpr Choices<GlBackend, 3> kBackends = {

@@ -108,6 +108,7 @@ void add_picture_options(Group group, RenderOptions& render, PictureTexts& texts
   group.add_words("--layers", texts.layers, kLayers, "What is drawn, in this order")
       ->default_str(join_words(render.layers, kLayers));
   group.add_choice("--view", render.view, kViews, "Camera");
+  group.add_choice("--up", render.up, kUpAxes, "The model's axis that points up, but for --view report");
   group.add_text("--size", texts.size, "WxH", "Pixels, 1 to 16384 a side; --view report has 500x500")
       ->default_str(fmt::format("{}x{}", render.width, render.height));
   group.add_text("--background", texts.background, "COLOUR", "rrggbb, or none")->default_str("ffffff");
@@ -265,6 +266,7 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
   set_threads(line.job, line.threads);
   line.job.write.view = render.view;
   line.job.simplify.boundary = line.job.subdivide.boundary;
+  line.job.write.up = render.up;
   line.job.write.timestamp = source_date_epoch().value_or(line.job.write.timestamp);
   line.options_text = options_text(app);
   return line;

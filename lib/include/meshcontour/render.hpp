@@ -23,12 +23,15 @@ enum class Layer {
   Annotations,  ///< line drawings that come with the model
 };
 
-/// From where the model is seen. Z is up. Front looks along +Y with X to the right, right looks along -X with
+/// From where the model is seen, with Z up. Front looks along +Y with X to the right, right looks along -X with
 /// Y to the right, top looks along -Z with X to the right and Y up; back, left and bottom are their
 /// opposites, bottom with X to the right. Iso looks from (1, -1, 1): front, right and top at once. These are
 /// orthographic and fit the model to the picture; Report is the fixed perspective of the report's figures, in
 /// model units, in its colours.
 enum class View { Iso, Front, Back, Left, Right, Top, Bottom, Report };
+
+/// The axis of the model that points up in the named views; Z in CAD, Y in many graphics programs.
+enum class UpAxis { X, Y, Z };
 
 /// What a colour tells.
 enum class ColorBy {
@@ -44,6 +47,7 @@ struct RenderOptions {
   int width = 1280, height = 960;                                          ///< pixels, 1 to 16384
   std::vector<Layer> layers = {Layer::Mesh, Layer::Edges, Layer::Curves};  ///< drawn in this order
   View view = View::Iso;
+  UpAxis up = UpAxis::Z;  ///< of no meaning to View::Report
   std::optional<Rgba> background = Rgba{255, 255, 255, 255};  ///< none: transparent
   ColorBy color_by = ColorBy::File;
   GlBackend backend = GlBackend::Automatic;  ///< Automatic: OSMesa, or EGL where that is missing
@@ -73,7 +77,7 @@ Image render(const Model& model, std::span<const ShellBoundary> boundaries, std:
 std::vector<std::string> renderers();
 
 /// The axes of a view in model coordinates: rows are the picture's right, its up, and towards the viewer.
-Eigen::Matrix3d view_axes(View view);
+Eigen::Matrix3d view_axes(View view, UpAxis up = UpAxis::Z);
 
 /// The palette of ColorBy::Patch; any index.
 Rgba patch_color(std::size_t patch);

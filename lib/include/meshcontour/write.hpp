@@ -54,6 +54,7 @@ struct WriteOptions {
   StepSchema step = StepSchema::Ap242;
   EdgeUse edges = EdgeUse::All;
   View view = View::Iso;  ///< of an SVG; Report counts as Iso
+  UpAxis up = UpAxis::Z;  ///< of that view
   std::int64_t timestamp =
       946'684'800;  ///< in the headers of STEP and DXF, seconds since 1970 UTC; 2000-01-01
 };

@@ -6,7 +6,17 @@
 
 namespace meshcontour {
 
-Eigen::Matrix3d view_axes(View view) {
+namespace {
+
+// Turns a model so that its up axis becomes Z; the axes keep their cyclic order, so that nothing is mirrored.
+Eigen::Matrix3d z_up(UpAxis up) {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  if (up == UpAxis::X) turn << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  if (up == UpAxis::Y) turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  return turn;
+}
+
+Eigen::Matrix3d named_axes(View view) {
   const auto axes = [](const Vector& right, const Vector& up) {
     Eigen::Matrix3d rows;
     rows << right.transpose(), up.transpose(), right.cross(up).transpose();
@@ -32,6 +42,12 @@ Eigen::Matrix3d view_axes(View view) {
       break;
   }
   return Eigen::AngleAxisd(std::numbers::pi / 4, Vector(1, 1, -1).normalized()).toRotationMatrix();
+}
+
+}  // namespace
+
+Eigen::Matrix3d view_axes(View view, UpAxis up) {
+  return view == View::Report ? named_axes(view) : Eigen::Matrix3d(named_axes(view) * z_up(up));
 }
 
 namespace detail {
@@ -90,7 +106,7 @@ Placement place(const Camera& camera, const LocalFrame& frame, const Eigen::Affi
 Camera make_camera(const Box& extent, const Point& reference, const RenderOptions& options) {
   if (options.view == View::Report) return report_camera(options);
   Camera camera;
-  camera.axes = view_axes(options.view);
+  camera.axes = view_axes(options.view, options.up);
   Vector half = Vector::Zero();
   if (!extent.isEmpty()) {
     if (extent.min().cwiseAbs().maxCoeff() > kLargest || extent.max().cwiseAbs().maxCoeff() > kLargest) {

@@ -18,7 +18,7 @@ bool drawn(const RenderOptions& options, Layer layer) {
 class Extent {
  public:
   Extent(const Model& model, const RenderOptions& options)
-      : model_(model), axes_(view_axes(options.view)), threads_(options.threads) {
+      : model_(model), axes_(view_axes(options.view, options.up)), threads_(options.threads) {
     reference_ = first_point();
     for (const Instance& instance : model.instances) add(instance);
     if (drawn(options, Layer::Annotations)) add_annotations();

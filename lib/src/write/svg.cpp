@@ -26,8 +26,8 @@ constexpr int kPiecesOfSpan = 16;       // cubics for a span that is no cubic it
 // The model seen from a side; y runs down.
 class Projection {
  public:
-  explicit Projection(View view) {
-    const Eigen::Matrix3d axes = view_axes(view == View::Report ? View::Iso : view);
+  Projection(View view, UpAxis up) {
+    const Eigen::Matrix3d axes = view_axes(view == View::Report ? View::Iso : view, up);
     matrix_.row(0) = axes.row(0);
     matrix_.row(1) = -axes.row(1);
   }
@@ -247,7 +247,7 @@ void SvgWriter::end() {
 }  // namespace
 
 void write_svg(const Result& result, const WriteOptions& options, Sink& sink, std::vector<Diagnostic>&) {
-  const Projection project(options.view);
+  const Projection project(options.view, options.up);
   SvgWriter out(sink, project);
   out.begin(result.model, bounds(result, options.edges, project));
   for_each_group(result, options.edges, LoopShape::Fitted, [&](const Group& group) { out.add(group); });

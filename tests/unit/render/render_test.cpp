@@ -109,6 +109,19 @@ TEST_CASE("render: iso shows the front, the right and the top", "[render]") {
   CHECK(view_axes(View::Iso).row(1).z() > 0.8);
 }
 
+TEST_CASE("render: another axis than Z can point up", "[render]") {
+  const UpAxis up = GENERATE(UpAxis::X, UpAxis::Y, UpAxis::Z);
+  const Vector axis = up == UpAxis::X ? Vector::UnitX() : up == UpAxis::Y ? Vector::UnitY() : Vector::UnitZ();
+  for (const View view : {View::Front, View::Back, View::Left, View::Right}) {
+    CHECK(view_axes(view, up).row(1).transpose() == axis);
+    CHECK(view_axes(view, up).determinant() == Approx(1));
+  }
+  CHECK(view_axes(View::Top, up).row(2).transpose() == axis);
+  CHECK(view_axes(View::Report, up) == view_axes(View::Report));
+  // Where Y points up, Z points at the viewer of the front, as graphics programs have it.
+  CHECK(view_axes(View::Front, UpAxis::Y).row(2).transpose() == Vector(Vector::UnitZ()));
+}
+
 TEST_CASE("render: the report's view is its perspective, in model units", "[render]") {
   // The origin is in the middle; a unit there is tan(75 deg) / 4 * 0.015 half heights.
   RenderOptions options = small({Layer::Mesh}, View::Report);
