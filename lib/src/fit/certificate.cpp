@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
+
+#include "fit/taylor_piece.hpp"
 
 namespace meshcontour::detail {
 namespace {
@@ -104,6 +107,47 @@ class PieceWalk {
   std::size_t span_ = 0;
 };
 
+// The chords of a run, each with its range of parameters.
+struct Chords {
+  std::span<const Point> points;
+  std::span<const double> parameters;
+  double period;  // 0: an open run
+
+  std::size_t count() const { return period > 0 ? points.size() : points.size() - 1; }
+  const Point& stop(std::size_t i) const { return points[i + 1 < points.size() ? i + 1 : 0]; }
+  double end(std::size_t i) const {
+    return i + 1 < points.size() ? parameters[i + 1] : parameters[0] + period;
+  }
+};
+
+// A curve over h is nowhere farther than h^2/8 max |C''| from the line between its ends, nor these lines
+// farther from a chord than their ends are. `attained` is raised to the largest distance of an end.
+std::vector<double> quick_bounds(const BSplineCurve& curve, const Chords& chords, double& attained) {
+  std::vector<double> bounds(chords.count(), 0.0);
+  PieceWalk pieces(curve);
+  std::size_t known = 0;
+  TaylorPiece taylor;
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    const Point &start = chords.points[i], &stop = chords.stop(i);
+    bool first = true;
+    pieces.walk(chords.parameters[i], chords.end(i), [&](std::size_t span, double a, double b) {
+      if (span != known)
+        taylor = TaylorPiece(curve.knots.data() + span, curve.control_points.data() + span - 3);
+      known = span;
+      const double low = a - taylor.begin, high = b - taylor.begin;
+      const Point begin = taylor.position(low);
+      if (first) attained = std::max(attained, (begin - start).norm());
+      first = false;
+      const double ends = std::max(segment_distance(begin, start, stop),
+                                   segment_distance(taylor.position(high), start, stop));
+      const double acceleration = std::max(taylor.acceleration(low).norm(), taylor.acceleration(high).norm());
+      attained = std::max(attained, ends);
+      bounds[i] = std::max(bounds[i], ends + (b - a) * (b - a) / 8 * acceleration);
+    });
+  }
+  return bounds;
+}
+
 }  // namespace
 
 double segment_distance(const Point& p, const Point& start, const Point& end) {
@@ -131,25 +175,30 @@ double chord_deviation(const BSplineCurve& curve, double begin, double end, cons
 
 double spline_deviation(const BSplineCurve& curve, std::span<const Point> points,
                         std::span<const double> parameters, bool closed) {
-  const double period = curve.domain().second - curve.domain().first;
+  const Chords chords{points, parameters, closed ? curve.domain().second - curve.domain().first : 0};
   Bound bound;
-  PieceWalk pieces(curve);
-  for (std::size_t i = 0; i + (closed ? 0 : 1) < points.size(); ++i) {
-    const bool last = i + 1 == points.size();
-    const Point& start = points[i];
-    const Point& stop = last ? points[0] : points[i + 1];
-    const double end = last ? parameters[0] + period : parameters[i + 1];
-    bool first_piece = true;
-    pieces.walk(parameters[i], end, [&](std::size_t span, double a, double b) {
-      const CubicBezier bezier = bezier_piece(curve, span, a, b);
-      if (first_piece) bound.attained = std::max(bound.attained, (bezier[0] - start).norm());
-      first_piece = false;
-      bound.upper = std::max(bound.upper, bound.attained);
-      add_piece(bezier, start, stop, 0, bound);
-    });
+  const std::vector<double> quick = quick_bounds(curve, chords, bound.attained);
+  if (!closed) {
+    bound.attained = std::max(bound.attained, (points.back() - evaluate(curve, parameters.back())).norm());
   }
-  if (!closed)
-    bound.upper = std::max(bound.upper, (points.back() - evaluate(curve, parameters.back())).norm());
+  bound.upper = bound.attained;
+  // The worst chord first: most others are then known to be no worse.
+  PieceWalk pieces(curve);
+  const auto refine = [&](std::size_t i) {
+    pieces.walk(parameters[i], chords.end(i), [&](std::size_t span, double a, double b) {
+      add_piece(bezier_piece(curve, span, a, b), points[i], chords.stop(i), 0, bound);
+    });
+  };
+  const auto worst = static_cast<std::size_t>(std::ranges::max_element(quick) - quick.begin());
+  refine(worst);
+  for (std::size_t i = 0; i < quick.size(); ++i) {
+    if (i == worst || quick[i] <= bound.upper) continue;
+    if (quick[i] <= kTightness * bound.attained) {
+      bound.upper = quick[i];
+    } else {
+      refine(i);
+    }
+  }
   return bound.upper;
 }
 

@@ -9,9 +9,9 @@ namespace meshcontour::detail {
 namespace {
 
 constexpr std::size_t kFewestSamples = 128;
-constexpr double kSamplesPerSpan = 12;  // of a thinned run
-constexpr double kPointsPerSpan = 3;    // with fewer, samples are added
-constexpr double kFurtherSpans = 3;     // than the density says
+constexpr double kSamplesPerSpan = 6;   // of a thinned run
+constexpr double kPointsPerSpan = 2.5;  // with fewer, samples are added
+constexpr double kFurtherSpans = 2;     // than the density says
 constexpr std::size_t kLargestStride = 4;
 constexpr double kThinnedTolerance = 0.97;  // of the tolerance: the largest error may lie between the samples
 

@@ -27,8 +27,8 @@ struct RunSamples {
   std::vector<Point> points;
   std::vector<double> parameters;  ///< one a point
   double end = 0;                  ///< parameter of the last point, of a closed run that of the first again
-  std::size_t stride = 1;  ///< points 0, stride, 2 stride ... are vertices; those between lie on a smooth
-                           ///< curve through the vertices, and only hint
+  std::size_t stride = 1;      ///< points 0, stride, 2 stride ... are vertices; those between lie on a smooth
+                               ///< curve through the vertices, and only hint
   std::vector<double> limits;  ///< one a chord of the vertices; empty: none
   double tolerance = 0;        ///< at the vertices
   bool closed = false;
@@ -45,8 +45,8 @@ struct SampledRun {
 /// Every point.
 RunSamples all_samples(const NormalizedRun& run);
 
-/// As few points as tell where the knots go, at least a dozen a span. Too few of them for that: all, and up
-/// to three more on each chord, from the cubic interpolation. O(points).
+/// As few points as tell where the knots go, at least half a dozen a span. Too few of them for that: all, and
+/// up to three more on each chord, from the cubic interpolation. O(points).
 SampledRun sample_run(const NormalizedRun& run);
 
 /// Parameters of all points, from what became of those of some of them: linear in between.

@@ -7,11 +7,28 @@
 namespace meshcontour::detail {
 namespace {
 
-constexpr int kRounds = 2;              // of least squares and footpoints a fit
-constexpr int kBalancings = 4;          // of the knots at one number of spans
-constexpr double kHopeless = 3.0;       // times what is allowed: moving knots does not mend that
+constexpr int kRounds = 2;  // of least squares and footpoints a fit
+constexpr int kBalancings = 4,
+              kMostBalancings = 8;  // of the knots at one number of spans; the most if nearly there
+
+// All errors are multiples of what is allowed. These stop what is not going to succeed.
+constexpr double kHopeless = 3;             // moving knots does not mend such an error
+constexpr double kHopelessBalanced = 1.25;  // even if all spans shared the error evenly
+constexpr double kNearly = 1.05;            // below this, knots are moved on even if that makes it worse
+constexpr double kProgress = 0.965;         // the least that moving knots has to achieve at once
+constexpr double kFewerUntouched = 1.3;     // expected with one span less, had the knots not been moved yet
+constexpr double kFewerBalanced = 1.08;     // or had they been
+constexpr std::size_t kFewVertices = 32;    // so few that nothing is stopped early
+
+constexpr double kFirstShare = 0.95;    // of the spans that the density says
+constexpr double kNextShare = 0.7;      // of the spans that a rejected fit seems to need
 constexpr std::size_t kFineSpans = 64;  // up to here the smallest number is found exactly, then to this share
+constexpr double kPower = 0.12;         // half of the 1/4 that equal errors ask for: steps do not overshoot
 constexpr double kSmallestFactor = 0.6, kLargestFactor = 2.5;
+
+double fourth_power(double x) {
+  return x * x * x * x;
+}
 
 std::size_t clamped(double wanted, std::size_t low, std::size_t high) {
   if (!(wanted < static_cast<double>(high))) return high;
@@ -28,6 +45,7 @@ SpanSearch::SpanSearch(SplineFit& fit, const RunSamples& samples, KnotDensity de
       start_parameters_(fit.parameters()),
       start_error_(std::numeric_limits<double>::infinity()) {
   const std::size_t vertices = (samples.points.size() + samples.stride - 1) / samples.stride;
+  thorough_ = samples.stride > 1 && vertices < kFewVertices;
   lowest_ = samples.closed ? 4 : 1;
   highest_ = samples.closed ? vertices : vertices - std::min<std::size_t>(vertices, 3);
 }
@@ -35,21 +53,25 @@ SpanSearch::SpanSearch(SplineFit& fit, const RunSamples& samples, KnotDensity de
 bool SpanSearch::search() {
   if (highest_ < lowest_) return false;
   std::size_t rejected = lowest_ - 1, accepted = highest_ + 1;
-  std::size_t spans = clamped(start_.total(), lowest_, highest_);
-  while (accepted - rejected > 1 + accepted / kFineSpans) {
+  std::size_t spans = clamped(kFirstShare * start_.total(), lowest_, highest_);
+  while (true) {
     const bool good = attempt(spans);
-    if (good) {
-      accepted = spans;
-      keep();
-    } else {
-      rejected = spans;
-    }
-    if (accepted - rejected <= 1) break;
+    (good ? accepted : rejected) = spans;
+    if (good) keep();
+    if (accepted - rejected <= 1 + accepted / kFineSpans || (good && no_fewer(spans, rejected))) break;
     const std::size_t low = rejected + 1, high = accepted - 1;
     spans = clamped(start_.total(), low, high);
-    if (!good && accepted > highest_) spans = std::max(spans, std::min(high, low + rejected / 8));
+    if (!good) spans = std::max(spans, clamped(kNextShare * needed_, low, high));
   }
   return accepted <= highest_;
+}
+
+// Whether one span less than an accepted number is not worth the attempt.
+bool SpanSearch::no_fewer(std::size_t accepted, std::size_t rejected) const {
+  if (thorough_ || accepted - rejected > 2 + accepted / 16) return false;
+  const auto spans = static_cast<double>(accepted);
+  const double expected = fit_.worst_error() * fourth_power(spans / (spans - 1));
+  return expected > (balancings_ == 0 ? kFewerUntouched : kFewerBalanced);
 }
 
 bool SpanSearch::accept(std::span<const double> breaks) {
@@ -59,31 +81,36 @@ bool SpanSearch::accept(std::span<const double> breaks) {
   return true;
 }
 
+// With the knots of the best fit so far; if thorough, also with those that the points alone ask for.
 bool SpanSearch::attempt(std::size_t spans) {
-  const bool balanced = std::isfinite(start_error_);
-  return try_density(KnotDensity(start_), spans) || (balanced && try_density(first_, spans));
+  const bool known = std::isfinite(start_error_);
+  return try_density(KnotDensity(start_), spans) || (known && thorough_ && try_density(first_, spans));
 }
 
 // Fits with this number of spans, moving the knots to where the errors are.
-bool SpanSearch::try_density(const KnotDensity& density, std::size_t spans) {
-  KnotDensity current = density;
+bool SpanSearch::try_density(KnotDensity density, std::size_t spans) {
   fit_.set_parameters(start_parameters_);
-  double smallest = std::numeric_limits<double>::infinity(), power = 0.25;
-  for (int round = 0; round <= kBalancings; ++round) {
-    current.distribute(spans, breaks_);
+  double smallest = std::numeric_limits<double>::infinity(), power = kPower;
+  for (balancings_ = 0; balancings_ <= kMostBalancings; ++balancings_) {
+    density.distribute(spans, breaks_);
     if (!fit_.fit(breaks_, kRounds)) return false;
     const bool good = fit_.accepted();
     const double worst = fit_.worst_error();
-    if (worst > smallest) power /= 2;  // the step before was too long
+    const bool stalled = worst > kProgress * smallest;
+    if (worst > smallest) power /= 2;
     smallest = std::min(smallest, worst);
-    balance(current, power);
+    balance(density, power);
+    needed_ = static_cast<double>(spans) * std::pow(worst, 0.25);
     if (worst < start_error_) {
       start_error_ = worst;
       start_parameters_ = fit_.parameters();
-      start_ = current;
+      start_ = density;
     }
     if (good) return true;
-    if (worst > kHopeless) return false;
+    // The balanced measure counts spans of error 1 (with the exponent of its step).
+    const double balanced = std::pow(density.total() / static_cast<double>(spans), 1 / kPower);
+    if (worst > kHopeless || balanced > kHopelessBalanced) return false;
+    if (worst > kNearly && (balancings_ == kBalancings || (stalled && !thorough_))) return false;
   }
   return false;
 }

@@ -36,7 +36,8 @@ class SpanSearch {
   };
 
   bool attempt(std::size_t spans);
-  bool try_density(const KnotDensity& density, std::size_t spans);
+  bool no_fewer(std::size_t accepted, std::size_t rejected) const;
+  bool try_density(KnotDensity density, std::size_t spans);
   void balance(KnotDensity& density, double power);
   void keep();
 
@@ -47,6 +48,9 @@ class SpanSearch {
   std::vector<double> start_parameters_;  // of the best fit
   double start_error_;
   std::vector<double> breaks_, wanted_;
+  double needed_ = 0;   // spans, by the last fit
+  int balancings_ = 0;  // of the knots before the last fit
+  bool thorough_ = false;
   Best best_;
 };
 

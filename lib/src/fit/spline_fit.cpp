@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kLargestMove = 0.45;  // of the gap to a neighbour, so that the order is kept
 constexpr double kHintWeight = 0.2;    // of a sample that is no vertex
-constexpr double kSettled = 1e-6;      // of that gap: a second Newton step would change nothing
+constexpr double kSettled = 1e-4;  // squared slide over squared distance: another step would change nothing
+constexpr int kLastSteps = 2;      // of Newton's method, after the last round of least squares
 
 }  // namespace
 
@@ -38,26 +39,11 @@ void SplineFit::set_knots(std::span<const double> breaks) {
   }
 }
 
-// Taylor coefficients at the start of each span, from the control points of the derivatives.
 void SplineFit::update_pieces() {
   const std::size_t spans = curve_.knots.size() - 7;
-  pieces_.resize(spans);
+  pieces_.clear();
   for (std::size_t k = 0; k < spans; ++k) {
-    const double* t = curve_.knots.data() + 3 + k;
-    const Point* c = curve_.control_points.data() + k;
-    const double low2 = t[0] - t[-2], low1 = t[0] - t[-1], step = t[1] - t[0], high1 = t[2] - t[0],
-                 high2 = t[3] - t[0];
-    const Vector d0 = 3 / (step + low2) * (c[1] - c[0]), d1 = 3 / (high1 + low1) * (c[2] - c[1]);
-    const Vector d2 = 3 / high2 * (c[3] - c[2]);
-    const Vector e0 = 2 / (step + low1) * (d1 - d0), e1 = 2 / high1 * (d2 - d1);
-    const Point p0 = (step * c[0] + low2 * c[1]) / (step + low2),
-                p1 = (high1 * c[1] + low1 * c[2]) / (high1 + low1);
-    Piece& piece = pieces_[k];
-    piece.begin = t[0];
-    piece.c0 = (step * p0 + low1 * p1) / (step + low1);
-    piece.c1 = (step * d0 + low1 * d1) / (step + low1);
-    piece.c2 = e0 / 2;
-    piece.c3 = (e1 - e0) / (6 * step);
+    pieces_.emplace_back(curve_.knots.data() + 3 + k, curve_.control_points.data() + k);
   }
 }
 
@@ -70,38 +56,45 @@ std::size_t SplineFit::piece_at(double& u, std::size_t hint) const {
   return hint;
 }
 
-void SplineFit::move_footpoints() {
+void SplineFit::move_footpoints(int steps) {
   const std::size_t n = run_.points.size();
   std::swap(previous_, parameters_);
   parameters_.resize(n);
   std::size_t hint = 0;
-  vertex_error_ = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const double before = i > 0 ? previous_[i - 1] : previous_[n - 1] - run_.end;
     const double after = i + 1 < n ? previous_[i + 1] : previous_[0] + run_.end;
     const double reach = kLargestMove * std::min(previous_[i] - before, after - previous_[i]);
     const bool fixed = !run_.closed && (i == 0 || i + 1 == n);
     double t = previous_[i];
-    Vector gap, acceleration;
-    for (int step = 0;; ++step) {
+    for (int step = 0; step < steps && !fixed; ++step) {
       double u = t;
       hint = piece_at(u, hint);
-      const Piece& piece = pieces_[hint];
+      const TaylorPiece& piece = pieces_[hint];
       const double s = u - piece.begin;
-      gap = ((piece.c3 * s + piece.c2) * s + piece.c1) * s + piece.c0 - run_.points[i];
-      acceleration = 6 * s * piece.c3 + 2 * piece.c2;
-      if (fixed || step == 2) break;
-      const Vector velocity = (3 * s * piece.c3 + 2 * piece.c2) * s + piece.c1;
-      const double speed = velocity.squaredNorm(), curvature = speed + gap.dot(acceleration);
+      const Vector gap = piece.position(s) - run_.points[i], velocity = piece.velocity(s);
+      const double speed = velocity.squaredNorm(), curvature = speed + gap.dot(piece.acceleration(s));
       const double move = -gap.dot(velocity) / (curvature > speed / 4 ? curvature : speed);
       const double next = std::clamp(t + move, previous_[i] - reach, previous_[i] + reach);
-      if (!(std::abs(next - t) > kSettled * reach)) break;
+      const bool settled = (next - t) * (next - t) * speed <= kSettled * gap.squaredNorm();
       t = next;
+      if (settled) break;
     }
     parameters_[i] = t;
+  }
+}
+
+void SplineFit::measure() {
+  const std::size_t n = run_.points.size();
+  std::size_t hint = 0;
+  vertex_error_ = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    double u = parameters_[i];
+    hint = piece_at(u, hint);
+    const double s = u - pieces_[hint].begin;
     spans_[i] = static_cast<std::uint32_t>(hint);
-    errors_[i] = gap.norm();
-    accelerations_[i] = acceleration.norm();
+    errors_[i] = (pieces_[hint].position(s) - run_.points[i]).norm();
+    accelerations_[i] = pieces_[hint].acceleration(s).norm();
     if (i % run_.stride == 0) vertex_error_ = std::max(vertex_error_, errors_[i]);
   }
 }
@@ -115,8 +108,9 @@ bool SplineFit::fit(std::span<const double> breaks, int rounds) {
                                          curve_.control_points);
     if (!solved) return false;
     update_pieces();
-    move_footpoints();
+    move_footpoints(round + 1 < rounds ? 1 : kLastSteps);
   }
+  measure();
   return true;
 }
 

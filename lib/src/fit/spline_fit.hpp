@@ -8,6 +8,7 @@
 
 #include "fit/least_squares.hpp"
 #include "fit/run_samples.hpp"
+#include "fit/taylor_piece.hpp"
 #include "meshcontour/curve.hpp"
 
 namespace meshcontour::detail {
@@ -44,14 +45,10 @@ class SplineFit {
   std::size_t worst_chord() const { return worst_chord_; }
 
  private:
-  struct Piece {  // C(begin + s) = c0 + s c1 + s^2 c2 + s^3 c3
-    double begin;
-    Vector c0, c1, c2, c3;
-  };
-
   void set_knots(std::span<const double> breaks);
   void update_pieces();
-  void move_footpoints();
+  void move_footpoints(int steps);
+  void measure();
   std::size_t piece_at(double& u, std::size_t hint) const;
   double chord_bound(std::size_t i);
 
@@ -59,7 +56,7 @@ class SplineFit {
   std::vector<double> parameters_, previous_;
   CubicLeastSquares solver_;
   BSplineCurve curve_;
-  std::vector<Piece> pieces_;
+  std::vector<TaylorPiece> pieces_;
   std::vector<double> errors_;         // distance of each point to the curve at its parameter
   std::vector<double> accelerations_;  // |C''| there
   std::vector<std::uint32_t> spans_;   // the piece it lies on
