@@ -54,6 +54,7 @@ bool SpanSearch::search() {
   if (highest_ < lowest_) return false;
   std::size_t rejected = lowest_ - 1, accepted = highest_ + 1;
   std::size_t spans = clamped(kFirstShare * start_.total(), lowest_, highest_);
+  std::size_t further = 0;  // grows with each rejection: few attempts even if none succeeds
   while (true) {
     const bool good = attempt(spans);
     (good ? accepted : rejected) = spans;
@@ -61,7 +62,9 @@ bool SpanSearch::search() {
     if (accepted - rejected <= 1 + accepted / kFineSpans || (good && no_fewer(spans, rejected))) break;
     const std::size_t low = rejected + 1, high = accepted - 1;
     spans = clamped(start_.total(), low, high);
-    if (!good) spans = std::max(spans, clamped(kNextShare * needed_, low, high));
+    if (good) continue;
+    spans = std::max({spans, clamped(kNextShare * needed_, low, high), std::min(low + further / 4, high)});
+    further = 2 * further + 1;
   }
   return accepted <= highest_;
 }
