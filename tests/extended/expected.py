@@ -83,7 +83,10 @@ def arc_length(s, matrix):
     at = evaluator(s)
     if s["type"] in ("line",):
         return float(np.linalg.norm(linear @ (at([1.0]) - at([0.0]))[0]))
-    for a, b in zip(breaks(s)[:-1], breaks(s)[1:]):
+    pieces = breaks(s)
+    if len(pieces) < 32:  # a model's own curve may be of few and wild ones
+        pieces = np.unique(np.concatenate([np.linspace(a, b, 17) for a, b in zip(pieces[:-1], pieces[1:])]))
+    for a, b in zip(pieces[:-1], pieces[1:]):
         u = (a + b) / 2 + NODES * (b - a) / 2
         total += float(np.sum(WEIGHTS * np.linalg.norm(speed(s, u) @ linear.T, axis=1)) * (b - a) / 2)
     return total
@@ -116,7 +119,7 @@ def place(points, matrix):
 def placed_segment(s, matrix):
     at = evaluator(s)
     scale = abs(np.linalg.det(matrix[:3, :3])) ** (1 / 3)
-    count = 33 if s["type"] != "bspline" else 1 + 8 * len(breaks(s))
+    count = 257 if s["type"] != "bspline" else 1 + max(8 * len(breaks(s)), 1024)
     return Segment(kind=s["type"], points=place(at(FRACTIONS), matrix), length=arc_length(s, matrix),
                    radius=s.get("radius", 0.0) * scale, full=s["type"] == "circle" or abs(s.get("angle", 0) - 2 * np.pi) < 1e-12,
                    dense=place(at(np.linspace(0, 1, count)), matrix),

@@ -1,5 +1,6 @@
 // Writes one model in every format and variant, for other programs to read:
-//   export_all FOLDER          a model with every kind of curve, placed three times
+//   export_all FOLDER          FOLDER/curves, a model with every kind of curve, placed three times, and
+//                              FOLDER/shapes, the contours of shapes known exactly, a shell each
 //   export_all FOLDER FILE...  each file's contours, into a folder of its own name
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 
 #include "meshcontour/fit.hpp"
 #include "meshcontour/read.hpp"
+#include "support/shapes.hpp"
 #include "unit/write/sample.hpp"
 
 namespace {
@@ -26,15 +28,27 @@ Sample placed_sample() {
   return s;
 }
 
-Sample sample_of(const std::filesystem::path& file) {
+Sample fitted(Model model) {
   Sample s;
   std::vector<Diagnostic> diagnostics;
-  s.model = read_model(file);
+  s.model = std::move(model);
   s.boundaries = extract_boundaries(s.model, {}, diagnostics);
   FitOptions fit;
   fit.method = FitMethod::Primitives;
   s.contours = fit_contours(s.model, s.boundaries, fit, diagnostics);
   return s;
+}
+
+Sample shapes_sample() {
+  Model model;
+  for (const shapes::Shape& shape : shapes::all()) {
+    const double sagitta = 1e-4 * shapes::size(shape);
+    Model one = shapes::model_of(shapes::tessellate(shape, sagitta, shapes::Steps::Adaptive).points);
+    one.shells[0].id = shape.name;
+    model.instances.push_back({model.shells.size(), Eigen::Affine3d::Identity(), shape.name});
+    model.shells.push_back(std::move(one.shells[0]));
+  }
+  return fitted(std::move(model));
 }
 
 void write_all(const Sample& s, const std::filesystem::path& folder) {
@@ -67,10 +81,13 @@ int main(int argc, char** argv) {
   }
   try {
     const std::filesystem::path folder = argv[1];
-    if (argc == 2) write_all(placed_sample(), folder);
+    if (argc == 2) {
+      write_all(placed_sample(), folder / "curves");
+      write_all(shapes_sample(), folder / "shapes");
+    }
     for (int i = 2; i < argc; ++i) {
       const std::filesystem::path file = argv[i];
-      write_all(sample_of(file), folder / file.stem());
+      write_all(fitted(read_model(file)), folder / file.stem());
     }
   } catch (const std::exception& error) {
     fmt::print(stderr, "export_all: {}\n", error.what());

@@ -65,47 +65,57 @@ std::optional<ClosedConic> fit_ring(const Ring& ring) {
   return std::nullopt;
 }
 
-CircularArc part_of(const CircularArc& circle, const Vector& axis, const Path& path) {
+// Both ends of a part are held, as the segments beside it meet them: the circle gives way by as little as its ring
+// is off them.
+CircularArc part_of(const CircularArc& circle, const Vector& axis, const Point& start, const Point& end) {
   CircularArc arc = circle;
-  arc.axis = axis;
-  double angle = 0;
-  for (std::size_t i = 0; i < path.chords(); ++i) {
-    angle += angle_between(path.points[i] - arc.center, path.points[i + 1] - arc.center);
-  }
-  arc.angle = angle;
+  const Vector along = (end - start).normalized();
+  const Point middle = (start + end) / 2;
+  arc.start = start;
+  arc.end = end;
+  arc.axis = (axis - axis.dot(along) * along).normalized();
+  arc.center += (middle - arc.center).dot(along) * along;
+  arc.center += (middle - arc.center).dot(arc.axis) * arc.axis;
+  const Vector a = start - arc.center, b = end - arc.center;
+  arc.radius = a.norm();
+  arc.angle = std::atan2(a.cross(b).dot(arc.axis), a.dot(b));
+  if (arc.angle <= 0) arc.angle += 2 * std::numbers::pi;
   return arc;
 }
 
-EllipticalArc part_of(const EllipticalArc& ellipse, const Vector& axis, const Path& path) {
+EllipticalArc part_of(const EllipticalArc& ellipse, const Vector& axis, const Point& start, const Point& end) {
   EllipticalArc arc = ellipse;
   arc.axis = axis;
-  double angle = 0, before = ellipse_parameter(arc, path.points[0]);
-  for (std::size_t i = 0; i < path.chords(); ++i) {
-    const double here = ellipse_parameter(arc, path.points[i + 1]);
-    angle += std::remainder(here - before, 2 * std::numbers::pi);
-    before = here;
-  }
-  arc.angle = angle;
+  arc.start = start;
+  arc.end = end;
+  hold_ends(arc);
+  arc.angle = ellipse_parameter(arc, end) - ellipse_parameter(arc, start);
+  if (arc.angle <= 0) arc.angle += 2 * std::numbers::pi;
   return arc;
 }
 
-// Makes the whole chain an arc of the conic, whose centre is relative to `origin`.
-void make_part(const ClosedConic& conic, const Point& origin, const ChainUse& use, Recognition& fit) {
+double distance_to(const Curve& curve, const Point& point) {
+  if (const auto* arc = std::get_if<CircularArc>(&curve)) return distance_to_circle(*arc, point);
+  return distance_to_ellipse(std::get<EllipticalArc>(curve), point);
+}
+
+// Makes the whole chain an arc of the conic, whose centre is relative to `origin`, if its points are within the
+// tolerance of that.
+void make_part(const ClosedConic& conic, const Point& origin, double tolerance, const ChainUse& use,
+               Recognition& fit) {
   const Path& path = fit.path;
-  Piece piece{0, path.chords(), LineSegment{}, conic.residual, true};
+  Piece piece{0, path.chords(), LineSegment{}, 0, true};
   std::visit(
-      [&](const auto& whole) {
+      [&](auto whole) {
         if constexpr (requires { whole.center; }) {
-          auto shifted = whole;
-          shifted.center += origin - path.origin;
-          auto arc = part_of(shifted, use.reversed ? Vector(-whole.axis) : whole.axis, path);
-          arc.start = path.points.front();
-          arc.end = path.points.back();
-          piece.curve = arc;
+          whole.center += origin - path.origin;
+          const Vector axis = use.reversed ? Vector(-whole.axis) : whole.axis;
+          piece.curve = part_of(whole, axis, path.points.front(), path.points.back());
         }
       },
       conic.curve);
-  fit.pieces = {piece};
+  for (const Point& p : path.points) piece.residual = std::max(piece.residual, distance_to(piece.curve, p));
+  if (piece.residual <= tolerance) fit.pieces = {piece};
 }
 
 bool is_arc_of_kind(const Recognition& fit, const ClosedConic& conic) {
@@ -131,7 +141,7 @@ void find_closed_conics(const Shell& shell, const ShellBoundary& boundary,
       const Point& origin = shell.points[loop.vertices[0]];
       for (const ChainUse& use : uses) {
         Recognition& fit = recognition.fits[use.chain];
-        if (!is_arc_of_kind(fit, *conic)) make_part(*conic, origin, use, fit);
+        if (!is_arc_of_kind(fit, *conic)) make_part(*conic, origin, ring.tolerance, use, fit);
       }
       std::visit(
           [&](auto& whole) {

@@ -159,18 +159,6 @@ Point at(const EllipticalArc& arc, double t) {
   return arc.center + std::cos(t) * arc.major + std::sin(t) * arc.ratio * arc.axis.cross(arc.major);
 }
 
-// Moves the ellipse by a small similarity so that it runs through both end points.
-void hold_ends(EllipticalArc& arc, const Point& start, const Point& end) {
-  const Point from = at(arc, ellipse_parameter(arc, start)), to = at(arc, ellipse_parameter(arc, end));
-  const Vector before = to - from, after = end - start;
-  if (!(before.norm() > 0 && after.norm() > 0)) return;
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(before, after);
-  const double scale = after.norm() / before.norm();
-  arc.center = start + scale * (turn * (arc.center - from));
-  arc.axis = (turn * arc.axis).normalized();
-  arc.major = scale * (turn * arc.major);
-}
-
 // The turn of the points about the centre in the ellipse's parameter; negative when a step is backwards or
 // too wide.
 double checked_sweep(const EllipticalArc& arc, std::span<const Point> points, bool closed) {
@@ -224,6 +212,17 @@ double distance_to_ellipse(const EllipticalArc& arc, const Point& point) {
   return (point - at(arc, ellipse_parameter(arc, point))).norm();
 }
 
+void hold_ends(EllipticalArc& arc) {
+  const Point from = at(arc, ellipse_parameter(arc, arc.start)), to = at(arc, ellipse_parameter(arc, arc.end));
+  const Vector before = to - from, after = arc.end - arc.start;
+  if (!(before.norm() > 0 && after.norm() > 0)) return;
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(before, after);
+  const double scale = after.norm() / before.norm();
+  arc.center = arc.start + scale * (turn * (arc.center - from));
+  arc.axis = (turn * arc.axis).normalized();
+  arc.major = scale * (turn * arc.major);
+}
+
 std::optional<EllipseFit> fit_ellipse(std::span<const Point> points, bool closed, double limit) {
   const Plane plane = least_squares_plane(points);
   for (const Point& p : points) {
@@ -236,7 +235,7 @@ std::optional<EllipseFit> fit_ellipse(std::span<const Point> points, bool closed
   arc = in_space(*flat, plane);
   arc.start = points.front();
   arc.end = points.back();
-  if (!closed) hold_ends(arc, arc.start, arc.end);
+  if (!closed) hold_ends(arc);
   for (auto p = points.rbegin(); p != points.rend(); ++p) {
     const double distance = distance_to_ellipse(arc, *p);
     if (!(distance <= limit)) return std::nullopt;

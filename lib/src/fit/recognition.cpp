@@ -19,7 +19,7 @@ namespace {
 constexpr double kLadder[] = {1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.3, 1};
 constexpr std::size_t kEllipsePoints = 9;
 constexpr std::size_t kFewChords = 3;  // so few may be an arc when the model has others like it
-constexpr double kSlack = 3;           // less than the cost of any piece
+constexpr double kSlack = 2.5;         // less than an arc costs beyond the control point that it saves
 constexpr double kTight = 1e-3;        // share of the tolerance at which a match is no accident
 
 // Joints of a CAD model may be this far off the curves that meet there, while the points between are exact;

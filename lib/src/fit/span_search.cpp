@@ -20,6 +20,9 @@ constexpr double kFewerUntouched = 1.3;     // expected with one span less, had 
 constexpr double kFewerBalanced = 1.08;     // or had they been
 constexpr std::size_t kFewVertices = 32;    // so few that nothing is stopped early
 
+constexpr double kSuspicious = 1.25;          // times the spans that the points ask for
+constexpr std::size_t kFewToRepeat = 1'000;  // spans at most, for a search to be repeated thoroughly
+
 constexpr double kFirstShare = 0.95;    // of the spans that the density says
 constexpr double kNextShare = 0.7;      // of the spans that a rejected fit seems to need
 constexpr std::size_t kFineSpans = 64;  // up to here the smallest number is found exactly, then to this share
@@ -50,23 +53,36 @@ SpanSearch::SpanSearch(SplineFit& fit, const RunSamples& samples, KnotDensity de
   highest_ = samples.closed ? vertices : vertices - std::min<std::size_t>(vertices, 3);
 }
 
+// Stopping early loses now and then; a result with so many spans more than the points ask for shows it.
 bool SpanSearch::search() {
-  if (highest_ < lowest_) return false;
-  std::size_t rejected = lowest_ - 1, accepted = highest_ + 1;
-  std::size_t spans = clamped(kFirstShare * start_.total(), lowest_, highest_);
+  std::size_t found = search_below(highest_ + 1);
+  const double suspicious = kSuspicious * (first_.total() + 1);
+  if (!thorough_ && highest_ <= kFewToRepeat && static_cast<double>(found) > suspicious) {
+    thorough_ = true;
+    start_ = first_;
+    start_error_ = std::numeric_limits<double>::infinity();
+    found = search_below(found);
+  }
+  return found <= highest_;
+}
+
+// The smallest number of spans below `accepted` that is accepted, or that itself.
+std::size_t SpanSearch::search_below(std::size_t accepted) {
+  std::size_t rejected = lowest_ - 1;
+  std::size_t spans = clamped(kFirstShare * start_.total(), lowest_, accepted - 1);
   std::size_t further = 0;  // grows with each rejection: few attempts even if none succeeds
-  while (true) {
+  while (accepted - rejected > 1 + (accepted <= highest_ ? accepted / kFineSpans : 0)) {
     const bool good = attempt(spans);
     (good ? accepted : rejected) = spans;
     if (good) keep();
-    if (accepted - rejected <= 1 + accepted / kFineSpans || (good && no_fewer(spans, rejected))) break;
+    if (accepted - rejected <= 1 || (good && no_fewer(spans, rejected))) break;
     const std::size_t low = rejected + 1, high = accepted - 1;
     spans = clamped(start_.total(), low, high);
     if (good) continue;
     spans = std::max({spans, clamped(kNextShare * needed_, low, high), std::min(low + further / 4, high)});
     further = 2 * further + 1;
   }
-  return accepted <= highest_;
+  return accepted;
 }
 
 // Whether one span less than an accepted number is not worth the attempt.

@@ -35,6 +35,7 @@ class SpanSearch {
     double vertex_error = 0;
   };
 
+  std::size_t search_below(std::size_t accepted);
   bool attempt(std::size_t spans);
   bool no_fewer(std::size_t accepted, std::size_t rejected) const;
   bool try_density(KnotDensity density, std::size_t spans);
