@@ -1,5 +1,5 @@
-// Processor time of whole loops and of the least squares alone, from ten thousand vertices to a million: it has
-// to grow no faster than the loops.
+// Processor time of whole loops and of the least squares alone, from ten thousand vertices to a million: it
+// has to grow no faster than the loops.
 
 #include <fmt/format.h>
 

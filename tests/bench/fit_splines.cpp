@@ -1,5 +1,5 @@
-// Smooth runs of known curves as B-splines: control points, certificate and time; as JSON, with the points and the
-// fitted curves, for spline_peers.py, which sets other libraries beside it.
+// Smooth runs of known curves as B-splines: control points, certificate and time; as JSON, with the points
+// and the fitted curves, for spline_peers.py, which sets other libraries beside it.
 
 #include <cmath>
 #include <fstream>
@@ -108,7 +108,8 @@ int main(int count, char** arguments) {
         fits.back()["sagitta"] = sagitta;
       }
     }
-    for (const int chords : {34, 1'000, 100'000}) sizes.push_back(fitted(run, even_points(run, chords), 1e-4));
+    for (const int chords : {34, 1'000, 100'000})
+      sizes.push_back(fitted(run, even_points(run, chords), 1e-4));
   }
   std::ofstream(arguments[1]) << json{{"truth", truth}, {"fits", fits}, {"sizes", sizes}};
 }

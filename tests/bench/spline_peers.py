@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Splines of bench_fit_splines beside those of FITPACK (scipy) and OpenCASCADE (GeomAPI_PointsToBSpline).
 
-Control points at equal true distance: the fewest that the other library needs, over a grid of its own tolerances, to
-be as near to the true curve as ours is. Times: ours beside one call of FITPACK with the smoothing factor, found
-before by bisection, that just keeps the tolerance at the points. Run by the Python of scripts/extended_env.
+Control points at equal true distance: the fewest that the other library needs, over a grid of its own
+tolerances, to be as near to the true curve as ours is. Times: ours beside one call of FITPACK with the smoothing
+factor, found before by bisection, that just keeps the tolerance at the points. Run by the Python of
+scripts/extended_env.
 
 usage: spline_peers.py FILE.json
 """
@@ -103,15 +104,16 @@ def compare_counts(data, truths):
         truth, points = truths[fit["run"]], np.array(fit["points"])
         distance = truth.distance(ours(fit))
         tolerances = GRID * fit["tolerance"]
-        peers = [
-            fewest(results_of(lambda t: fitpack(points, truth.closed, len(points) * t**2 / 3), truth, tolerances), distance),
-            fewest(results_of(lambda t: opencascade(points, truth.closed, t), truth, tolerances), distance),
+        libraries = [
+            lambda tolerance: fitpack(points, truth.closed, len(points) * tolerance**2 / 3),
+            lambda tolerance: opencascade(points, truth.closed, tolerance),
         ]
+        peers = [fewest(results_of(library, truth, tolerances), distance) for library in libraries]
         more = any(count is not None and count < fit["control_count"] for count in peers)
         lost += more
-        print(f"{fit['run']:12} {fit['sagitta']:8.0e} {fit['relative_tolerance']:10.0e} {fit['control_count']:5}"
-              f" {distance / fit['tolerance']:14.2f} {peers[0] or '-':>8} {peers[1] or '-':>12}"
-              f"{'  more' if more else ''}", flush=True)
+        print(f"{fit['run']:12} {fit['sagitta']:8.0e} {fit['relative_tolerance']:10.0e}"
+              f" {fit['control_count']:5} {distance / fit['tolerance']:14.2f} {peers[0] or '-':>8}"
+              f" {peers[1] or '-':>12}{'  more' if more else ''}", flush=True)
     print(f"more control points than a peer: {lost} of {len(data['fits'])}")
 
 
@@ -128,7 +130,7 @@ def keeping_smoothing(points, closed, tolerance):
 
 
 def compare_times(data, truths):
-    print("run           points  ours: controls  milliseconds  FITPACK: controls  milliseconds  share of its time")
+    print("run           points  ours: controls  milliseconds  FITPACK: controls  milliseconds  share")
     for fit in data["sizes"]:
         closed, points = truths[fit["run"]].closed, np.array(fit["points"])
         smoothing = keeping_smoothing(points, closed, fit["tolerance"])
@@ -139,8 +141,8 @@ def compare_times(data, truths):
             (knots, _, _), _ = splprep(rows, s=smoothing, per=closed, quiet=1)
             shortest = min(shortest, time.process_time() - start)
         count = len(knots) - 4 - (3 if closed else 0)
-        print(f"{fit['run']:12} {len(points):7} {fit['control_count']:15} {1e3 * fit['seconds']:13.3f} {count:18}"
-              f" {1e3 * shortest:13.3f} {fit['seconds'] / shortest:18.2f}", flush=True)
+        print(f"{fit['run']:12} {len(points):7} {fit['control_count']:15} {1e3 * fit['seconds']:13.3f}"
+              f" {count:18} {1e3 * shortest:13.3f} {fit['seconds'] / shortest:6.2f}", flush=True)
 
 
 def main():

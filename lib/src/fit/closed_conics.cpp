@@ -65,8 +65,8 @@ std::optional<ClosedConic> fit_ring(const Ring& ring) {
   return std::nullopt;
 }
 
-// Both ends of a part are held, as the segments beside it meet them: the circle gives way by as little as its ring
-// is off them.
+// Both ends of a part are held, as the segments beside it meet them: the circle gives way by as little as its
+// ring is off them.
 CircularArc part_of(const CircularArc& circle, const Vector& axis, const Point& start, const Point& end) {
   CircularArc arc = circle;
   const Vector along = (end - start).normalized();
@@ -83,7 +83,8 @@ CircularArc part_of(const CircularArc& circle, const Vector& axis, const Point& 
   return arc;
 }
 
-EllipticalArc part_of(const EllipticalArc& ellipse, const Vector& axis, const Point& start, const Point& end) {
+EllipticalArc part_of(const EllipticalArc& ellipse, const Vector& axis, const Point& start,
+                      const Point& end) {
   EllipticalArc arc = ellipse;
   arc.axis = axis;
   arc.start = start;
@@ -99,8 +100,8 @@ double distance_to(const Curve& curve, const Point& point) {
   return distance_to_ellipse(std::get<EllipticalArc>(curve), point);
 }
 
-// Makes the whole chain an arc of the conic, whose centre is relative to `origin`, if its points are within the
-// tolerance of that.
+// Makes the whole chain an arc of the conic, whose centre is relative to `origin`, if its points are within
+// the tolerance of that.
 void make_part(const ClosedConic& conic, const Point& origin, double tolerance, const ChainUse& use,
                Recognition& fit) {
   const Path& path = fit.path;

@@ -213,7 +213,8 @@ double distance_to_ellipse(const EllipticalArc& arc, const Point& point) {
 }
 
 void hold_ends(EllipticalArc& arc) {
-  const Point from = at(arc, ellipse_parameter(arc, arc.start)), to = at(arc, ellipse_parameter(arc, arc.end));
+  const Point from = at(arc, ellipse_parameter(arc, arc.start)),
+              to = at(arc, ellipse_parameter(arc, arc.end));
   const Vector before = to - from, after = arc.end - arc.start;
   if (!(before.norm() > 0 && after.norm() > 0)) return;
   const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(before, after);

@@ -21,7 +21,8 @@ struct EllipseFit {
 /// @param points  N >= 6; closed: the first point not repeated.
 std::optional<EllipseFit> fit_ellipse(std::span<const Point> points, bool closed, double limit);
 
-/// Moves the ellipse by the small similarity that makes it run through `start` and `end`; `angle` is left as it is.
+/// Moves the ellipse by the small similarity that makes it run through `start` and `end`; `angle` is left as
+/// it is.
 void hold_ends(EllipticalArc& arc);
 
 /// The ellipse's own parameter of the nearest point, in (-pi, pi].

@@ -20,7 +20,7 @@ constexpr double kFewerUntouched = 1.3;     // expected with one span less, had 
 constexpr double kFewerBalanced = 1.08;     // or had they been
 constexpr std::size_t kFewVertices = 32;    // so few that nothing is stopped early
 
-constexpr double kSuspicious = 1.25;          // times the spans that the points ask for
+constexpr double kSuspicious = 1.25;         // times the spans that the points ask for
 constexpr std::size_t kFewToRepeat = 1'000;  // spans at most, for a search to be repeated thoroughly
 
 constexpr double kFirstShare = 0.95;    // of the spans that the density says

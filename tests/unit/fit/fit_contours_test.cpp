@@ -1,8 +1,11 @@
 #include <limits>
 #include <numbers>
+#include <random>
 
+#include "fit/ellipse_fit.hpp"
 #include "meshcontour/fit.hpp"
 #include "support/catch.hpp"
+#include "support/curves.hpp"
 
 using namespace meshcontour;
 
@@ -28,6 +31,13 @@ struct Loops {
     }
     PatchBoundary patch;
     patch.loops = {loop};
+    boundaries[0].patches.push_back(patch);
+  }
+
+  /// A loop of points that are there already.
+  void add_of(const std::vector<Index>& vertices) {
+    PatchBoundary patch;
+    patch.loops = {BoundaryLoop{vertices, true}};
     boundaries[0].patches.push_back(patch);
   }
 
@@ -87,6 +97,44 @@ TEST_CASE("fit_contours: repeated points change nothing", "[fit]") {
   const auto contours = loops.fit(FitMethod::Interpolate, diagnostics);
   CHECK(std::get<BSplineCurve>(contours[0].segments[0].curve).control_points ==
         std::get<BSplineCurve>(contours[1].segments[0].curve).control_points);
+}
+
+TEST_CASE("fit_contours: parts of a noisy circle or ellipse run through their joints", "[fit]") {
+  // A ring of 28 points that seven patches share with the one inside it, four chords each.
+  const double ratio = GENERATE(1.0, 0.7);
+  std::mt19937 engine(5);
+  Loops loops;
+  std::vector<Point> ring = circle(28, 10);
+  for (Point& p : ring) p = Point(p.x(), ratio * p.y(), 0) + 2e-5 * test::random_point(engine);
+  loops.add(ring);
+  for (Index k = 0; k < 7; ++k) {
+    std::vector<Index> vertices;
+    for (Index i = 4; i + 1 > 0; --i) vertices.push_back((4 * k + i) % 28);
+    for (const Index end : {4 * k, (4 * k + 4) % 28}) {
+      vertices.push_back(static_cast<Index>(loops.model.shells[0].points.size()));
+      loops.model.shells[0].points.push_back(ring[end] - Vector(0, 0, 5));
+    }
+    loops.add_of(vertices);
+  }
+  std::vector<Diagnostic> diagnostics;
+  const auto contours = loops.fit(FitMethod::Primitives, diagnostics);
+  std::size_t parts = 0;
+  for (const Contour& contour : contours) {
+    for (const Segment& segment : contour.segments) {
+      if (const auto* arc = std::get_if<CircularArc>(&segment.curve); arc != nullptr && !arc->full()) {
+        ++parts;
+        CHECK((evaluate(segment.curve, 1) - arc->end).norm() < 1e-12);
+        CHECK((arc->start - arc->center).norm() == Approx(arc->radius).epsilon(1e-13));
+      }
+      if (const auto* arc = std::get_if<EllipticalArc>(&segment.curve); arc != nullptr && !arc->full()) {
+        ++parts;
+        CHECK((evaluate(segment.curve, 1) - arc->end).norm() < 1e-12);
+        CHECK(detail::distance_to_ellipse(*arc, arc->start) < 1e-12);
+      }
+    }
+  }
+  CHECK(parts == 7);
+  CHECK(contours[0].segments.size() == 1);
 }
 
 TEST_CASE("fit_contours: what cannot be fitted is its polygon, and said so", "[fit][error]") {
