@@ -24,7 +24,8 @@ std::string_view text_of(Bytes input) {
   return {reinterpret_cast<const char*>(input.data()), input.size()};
 }
 
-// What a reader makes of an input: its model bit by bit, or its message.
+// What a reader makes of an input: its model bit by bit, or that it refuses it. Of several faults the two
+// ways of reading may name either.
 template <typename Read>
 std::string outcome(const Read& read) {
   try {
@@ -33,7 +34,7 @@ std::string outcome(const Read& read) {
     return webxml_text::fingerprint(model) + webxml_text::texts(model.diagnostics);
   } catch (const Error& error) {
     require(error.code() != ErrorCode::Internal, error.what());
-    return error.what();
+    return "refused";
   }
 }
 
