@@ -74,7 +74,7 @@ double centre_height(std::span<const Point> points, const ChordFrame& frame) {
     visit_inner(points.size(), [&](std::size_t i) {
       const Vector v = points[i] - frame.middle;
       const double x = v.dot(frame.along), y = v.dot(frame.bulge);
-      const double r = std::hypot(x, y - k);
+      const double r = std::sqrt(x * x + (y - k) * (y - k));
       if (!(r > 0)) return;
       const double slope = (k - y) / r - k / radius;
       gradient += slope * (r - radius);
@@ -99,19 +99,25 @@ double checked_residual(const CircularArc& arc, std::span<const Point> points, d
   return worst;
 }
 
-// The turn of the points about the arc's axis; negative when one step is backwards or too wide.
+// The turn of the points about the arc's axis; negative when one step is backwards or too wide. Whole turns are
+// counted where the points pass the first one.
 double checked_sweep(const CircularArc& arc, std::span<const Point> points, bool closed) {
-  double sweep = 0;
+  const double steepest = std::tan(kLargestStep) * (1 + 1e-12);
+  const Vector first = points[0] - arc.center, sideways = arc.axis.cross(first);
+  Vector before = first;
+  double turns = 0, side = 0;
   const std::size_t steps = closed ? points.size() : points.size() - 1;
-  Vector before = points[0] - arc.center;
   for (std::size_t i = 0; i < steps; ++i) {
-    const Vector here = points[(i + 1) % points.size()] - arc.center;
-    const double step = std::atan2(before.cross(here).dot(arc.axis), before.dot(here));
-    if (!(step > 0 && step <= kLargestStep)) return -1;
-    sweep += step;
+    const Vector here = points[i + 1 < points.size() ? i + 1 : 0] - arc.center;
+    const double across = before.cross(here).dot(arc.axis);
+    if (!(across > 0 && across <= steepest * before.dot(here))) return -1;
+    const double side_before = side;
+    side = closed && i + 1 == steps ? 0 : sideways.dot(here);
+    if (side_before < 0 && side >= 0 && first.dot(here) > 0) ++turns;
     before = here;
   }
-  return sweep;
+  const double angle = std::atan2(side, first.dot(before));
+  return angle + kTwoPi * (angle < 0 ? turns + 1 : turns);
 }
 
 }  // namespace
@@ -237,8 +243,8 @@ std::optional<ArcFit> fit_circle(std::span<const Point> ring, double limit) {
 double distance_to_circle(const CircularArc& arc, const Point& point) {
   const Vector v = point - arc.center;
   const double height = v.dot(arc.axis);
-  const double spoke = (v - height * arc.axis).norm();
-  return std::hypot(spoke - arc.radius, height);
+  const double off = (v - height * arc.axis).norm() - arc.radius;
+  return std::sqrt(off * off + height * height);
 }
 
 }  // namespace meshcontour::detail
