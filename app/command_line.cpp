@@ -48,6 +48,17 @@ void add_output_options(Group group, CommandLine& line) {
                  "List these times in .json outputs too, whose bytes then differ from run to run");
   const auto add_mesh = [&line](const std::string& path) { line.meshes.push_back(path); };
   group.add_each("--save-mesh", "FILE", add_mesh, "Write the mesh, repeatable: .off, .obj, .stl, .ply");
+  const auto add_wavelet = [&line](const std::string& path) { line.wavelets.push_back(path); };
+  group.add_each("--save-wavelet", "FILE", add_wavelet,
+                 "Write a progressive wavelet stream (.mcw), repeatable; it can be read back, whole or in part");
+  const auto parse_precision = [&line](const std::string& text) {
+    line.job.wavelet.precision = parse_positive(text, "--wavelet-precision");
+    if (line.job.wavelet.precision >= 1) refuse("--wavelet-precision", text, "a share below 1");
+  };
+  group
+      .add_parsed("--wavelet-precision", "SHARE", parse_precision,
+                  "Step of the coefficients in it, of a shell's box diagonal")
+      ->default_str(fmt::format("{}", line.job.wavelet.precision));
   group.add_action(
       "--mesh-text", [&line] { line.job.mesh.binary = false; }, "Text instead of binary .stl and .ply");
   group.add_choice("--csv-of", line.job.write.csv, kCsvContents, "Rows of a .csv");
@@ -234,6 +245,7 @@ std::vector<std::string> output_paths(const Job& job) {
   std::vector<std::string> paths;
   for (const OutputRequest& output : job.outputs) paths.push_back(output.path);
   for (const MeshRequest& mesh : job.meshes) paths.push_back(mesh.path);
+  paths.insert(paths.end(), job.wavelets.begin(), job.wavelets.end());
   return paths;
 }
 
@@ -267,6 +279,7 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
   line.job.write.view = render.view;
   line.job.simplify.boundary = line.job.subdivide.boundary;
   line.job.write.up = render.up;
+  line.job.wavelet.subdivide = line.job.subdivide;
   line.job.write.timestamp = source_date_epoch().value_or(line.job.write.timestamp);
   line.options_text = options_text(app);
   return line;
@@ -295,6 +308,9 @@ Job make_job(const CommandLine& command_line, const std::string& input, std::siz
     const auto known = mesh_format(std::filesystem::path(path).extension().string());
     if (!known) refuse("--save-mesh", path, "a name that ends with .off, .obj, .stl or .ply");
     job.meshes.push_back({path, *known});
+  }
+  for (const std::string& wavelet : command_line.wavelets) {
+    job.wavelets.push_back(output_path(wavelet, input, number, several));
   }
   return job;
 }

@@ -16,6 +16,7 @@ struct CommandLine {
   std::vector<std::string> outputs;  ///< templates with {stem} {dir} {n}
   std::vector<std::string> formats;  ///< of the outputs without a known extension, in order
   std::vector<std::string> meshes;   ///< templates too
+  std::vector<std::string> wavelets;  ///< and these
   std::vector<std::pair<ReportFormat, std::string>> reports;
   Job job;  ///< everything but input and outputs
   bool compare = false;

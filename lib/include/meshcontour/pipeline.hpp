@@ -15,6 +15,7 @@
 #include "meshcontour/segmentation.hpp"
 #include "meshcontour/simplification.hpp"
 #include "meshcontour/subdivision.hpp"
+#include "meshcontour/wavelet_stream.hpp"
 #include "meshcontour/write.hpp"
 
 namespace meshcontour {
@@ -48,6 +49,8 @@ struct Job {
   bool repair = false;  ///< cut the surface apart where it is no manifold
   SegmentOptions segment;
   PatchSelection selection;
+  std::vector<std::string> wavelets;  ///< files for the model as a progressive stream, before it is simplified
+  WaveletStreamOptions wavelet;
   unsigned subdivisions = 0;  ///< steps of butterfly subdivision
   SubdivisionOptions subdivide;
   SimplifyOptions simplify;   ///< after that

@@ -8,12 +8,26 @@
 
 namespace meshcontour {
 
+/// A mesh as the result of quadrisections.
+struct SubdivisionConnectivity {
+  unsigned levels = 0;  ///< 0: it is none, and the rest is empty
+  Shell base;  ///< the coarsest mesh, with the patches; points in the order in which the shell has them
+  std::vector<Index> order;  ///< vertex i of subdivided(base, levels) is this vertex of the shell
+};
+
+/// Finds out whether the triangles of a shell, in whatever order, come from subdivisions [Taubin 2002];
+/// linear.
+///
+/// The four children of a triangle must be of one patch. Shells with creases inside patches, without being an
+/// orientable manifold or with parts of which just some were subdivided give 0 levels. Where a part has
+/// several coarser meshes (a regular torus, a strip) the first that is found counts.
+SubdivisionConnectivity find_subdivision(const Shell& shell);
 
 /// A lifted butterfly wavelet transform on the meshes that a base mesh gives by quadrisection.
 ///
-/// Level 0 is the base mesh; level j+1 has the vertices of level j first (even) and then one for each of its edges
-/// (odd), as in subdivided(). Prediction is the modified butterfly rule, the update keeps the mean of the surface and
-/// moves border vertices by border details only. [Schroeder & Sweldens 1995]
+/// Level 0 is the base mesh; level j+1 has the vertices of level j first (even) and then one for each of its
+/// edges (odd), as in subdivided(). Prediction is the modified butterfly rule, the update keeps the mean of
+/// the surface and moves border vertices by border details only. [Schroeder & Sweldens 1995]
 class WaveletTransform {
  public:
   /// @param base    triangles of an orientable manifold, `vertex_count` vertices.
@@ -21,6 +35,8 @@ class WaveletTransform {
   /// @throws Error  as subdivided().
   WaveletTransform(std::span<const Triangle> base, Index vertex_count, unsigned levels,
                    const SubdivisionOptions& options = {});
+  /// As above, with the borders of the base's patches as curves of their own if the options say so.
+  WaveletTransform(const Shell& base, unsigned levels, const SubdivisionOptions& options = {});
   ~WaveletTransform();
 
   unsigned levels() const;
@@ -31,11 +47,12 @@ class WaveletTransform {
   /// Integrals of the scaling functions of a level, in units of the finest triangle's area.
   std::span<const double> integrals(unsigned level) const;
 
-  /// Vertices at which the update had to be left out, summed over the levels; the mean is kept exactly when 0.
+  /// Vertices at which the update had to be left out, summed over the levels; the mean is kept exactly when
+  /// 0.
   std::size_t unlifted() const;
 
-  /// Fine positions to coarse ones and details, in place: afterwards the first vertex_count(0) entries are the coarse
-  /// mesh, and entries vertex_count(j) .. vertex_count(j+1) - 1 the details of level j. Linear.
+  /// Fine positions to coarse ones and details, in place: afterwards the first vertex_count(0) entries are
+  /// the coarse mesh, and entries vertex_count(j) .. vertex_count(j+1) - 1 the details of level j. Linear.
   ///
   /// @param points  vertex_count(levels()).
   void analyse(std::span<Point> points) const;

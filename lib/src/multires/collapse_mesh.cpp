@@ -3,42 +3,13 @@
 #include <algorithm>
 #include <array>
 
-#include "meshcontour/boundary.hpp"
 #include "model/adjacency.hpp"
+#include "multires/patches.hpp"
 
 namespace meshcontour::detail {
-namespace {
-
-std::vector<std::size_t> patch_of_triangles(const Shell& shell) {
-  std::vector<std::size_t> patches(shell.triangles.size());
-  for (std::size_t p = 0; p < shell.patches.size(); ++p) {
-    std::fill_n(patches.begin() + static_cast<std::ptrdiff_t>(shell.patches[p].first_triangle),
-                shell.patches[p].triangle_count, p);
-  }
-  return patches;
-}
-
-// Loops are ordered by their smallest edge (from, to): the vertices that say which one that is.
-void fix_loop_starts(const Shell& shell, std::vector<bool>& fixed) {
-  for (std::size_t p = 0; p < shell.patches.size(); ++p) {
-    const auto triangles = shell.patch_triangles(p);
-    const std::vector<BoundaryEdge> edges = sorted_boundary_edges(triangles);
-    for (const BoundaryLoop& loop : trace_loops(triangles, edges)) {
-      fixed[loop.vertices.front()] = true;
-      if (!loop.closed) fixed[loop.vertices.back()] = true;
-    }
-    for (std::size_t i = 1; i < edges.size(); ++i) {
-      if (edges[i].from != edges[i - 1].from) continue;
-      for (const Index v : {edges[i].from, edges[i].to, edges[i - 1].to}) fixed[v] = true;
-    }
-  }
-}
-
-}  // namespace
-
 CollapseMesh::CollapseMesh(const Shell& shell, unsigned threads) {
   std::vector<bool> fixed(shell.points.size(), false);
-  fix_loop_starts(shell, fixed);
+  mark_loop_starts(shell, fixed);
   triangle_count_ = shell.triangles.size();
   pair_halfedges(shell, threads, fixed);
   mark_sharp(shell);

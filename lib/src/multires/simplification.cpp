@@ -4,18 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 
 #include "meshcontour/parallel.hpp"
 #include "multires/edge_collapse.hpp"
+#include "multires/wavelet_reduction.hpp"
 
 namespace meshcontour {
 namespace {
 
-constexpr int kTrials = 6;           // of limits until the error holds
-constexpr double kNearEnough = 0.7;  // of the error asked for: no further trial
-constexpr double kAim = 0.85;        // of the error asked for: what the next trial aims at
+constexpr int kTrials = 6;            // of limits until the error holds
+constexpr double kNearEnough = 0.7;   // of the error asked for: no further trial
+constexpr double kAim = 0.85;         // of the error asked for: what the next trial aims at
+constexpr unsigned kLeastLevels = 2;  // of a mesh that is taken for subdivided without being told
 
 void check(const SimplifyOptions& options) {
   const bool positive = std::isfinite(options.value) && options.value > 0;
@@ -26,13 +29,14 @@ void check(const SimplifyOptions& options) {
   }
 }
 
-// Collapses with several limits and keeps the smallest mesh whose measured distance is no larger than asked
-// for; the shell stays as it is when there is none.
-double collapse_within(Shell& shell, double error, unsigned threads) {
+// Tries several limits and keeps the smallest mesh whose measured distance is no larger than asked for; the
+// shell stays as it is when there is none. Returns the distance.
+double reduce_within(Shell& shell, double error, unsigned threads,
+                     const std::function<Shell(double)>& reduce) {
   std::optional<Shell> best;
   double limit = error, best_distance = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    Shell simple = detail::collapsed(shell, 0, limit, threads);
+    Shell simple = reduce(limit);
     const double distance = patch_distance(shell, simple, threads).upper;
     if (distance <= error && (!best || simple.triangles.size() < best->triangles.size())) {
       best = std::move(simple);
@@ -45,24 +49,46 @@ double collapse_within(Shell& shell, double error, unsigned threads) {
   return best_distance;
 }
 
+// The wavelet way, where the shell has one and it is wanted.
+std::optional<detail::WaveletReduction> wavelet_way(const Shell& shell, const SimplifyOptions& options,
+                                                    std::size_t triangles) {
+  if (options.method == SimplifyMethod::Qem) return std::nullopt;
+  const SubdivisionConnectivity connectivity = find_subdivision(shell);
+  const bool chosen = options.method == SimplifyMethod::Wavelet;
+  if (chosen && connectivity.levels == 0) {
+    throw Error(
+        ErrorCode::BadData,
+        fmt::format("shell {}: its triangles do not come from a subdivision, which the wavelet method needs; "
+                    "use --simplify-method qem",
+                    printable(shell.id)));
+  }
+  const bool reaches = options.goal == SimplifyGoal::Error || connectivity.base.triangles.size() <= triangles;
+  if (!chosen && (connectivity.levels < kLeastLevels || !reaches)) return std::nullopt;
+  return detail::WaveletReduction(shell, connectivity);
+}
+
 }  // namespace
 
 Simplification simplify_shell(Shell& shell, const SimplifyOptions& options, std::size_t triangles) {
   check(options);
   Simplification result;
   result.triangles_before = result.triangles_after = shell.triangles.size();
-  if (options.goal == SimplifyGoal::None) return result;
-  if (options.method == SimplifyMethod::Wavelet) {
-    throw Error(ErrorCode::BadData,
-                fmt::format("shell {}: its triangles are not known to come from a subdivision; use "
-                            "--simplify-method qem",
-                            printable(shell.id)));
+  const bool enough = options.goal != SimplifyGoal::Error && triangles >= shell.triangles.size();
+  if (options.goal == SimplifyGoal::None || shell.triangles.empty() || enough) return result;
+  const auto wavelets = wavelet_way(shell, options, triangles);
+  if (wavelets) {
+    result.method = SimplifyMethod::Wavelet;
+    result.levels = wavelets->levels();
   }
   if (options.goal == SimplifyGoal::Error) {
-    result.error = collapse_within(shell, options.value, options.threads);
-  } else if (triangles < shell.triangles.size()) {
+    const auto reduce = [&](double limit) {
+      return wavelets ? wavelets->within(limit) : detail::collapsed(shell, 0, limit, options.threads);
+    };
+    result.error = reduce_within(shell, options.value, options.threads, reduce);
+  } else {
+    constexpr double kNoLimit = std::numeric_limits<double>::infinity();
     Shell simple =
-        detail::collapsed(shell, triangles, std::numeric_limits<double>::infinity(), options.threads);
+        wavelets ? wavelets->with(triangles) : detail::collapsed(shell, triangles, kNoLimit, options.threads);
     result.error = patch_distance(shell, simple, options.threads).upper;
     shell = std::move(simple);
   }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "multires/level.hpp"
+#include "multires/patches.hpp"
 #include "multires/predict.hpp"
 
 namespace meshcontour {
@@ -12,17 +13,8 @@ namespace {
 
 using detail::MeshLevel;
 
-std::vector<std::size_t> patch_of_triangles(const Shell& shell) {
-  std::vector<std::size_t> patches(shell.triangles.size());
-  for (std::size_t p = 0; p < shell.patches.size(); ++p) {
-    const Patch& patch = shell.patches[p];
-    std::fill_n(patches.begin() + static_cast<std::ptrdiff_t>(patch.first_triangle), patch.triangle_count, p);
-  }
-  return patches;
-}
-
 MeshLevel level_of(const Shell& shell, bool creases) {
-  const std::vector<std::size_t> patches = patch_of_triangles(shell);
+  const std::vector<std::size_t> patches = detail::patch_of_triangles(shell);
   return detail::make_level(shell.triangles, static_cast<Index>(shell.points.size()),
                             [&](std::size_t f, std::size_t g) { return creases && patches[f] != patches[g]; });
 }

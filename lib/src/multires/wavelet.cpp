@@ -4,6 +4,7 @@
 #include <array>
 
 #include "multires/level.hpp"
+#include "multires/patches.hpp"
 #include "multires/predict.hpp"
 #include "multires/stencil.hpp"
 
@@ -42,10 +43,17 @@ std::array<Index, 2> lifted_vertices(const MeshLevel& level, Index edge) {
 
 struct WaveletTransform::Implementation {
   SubdivisionOptions options;
-  std::vector<MeshLevel> levels;               // 0..J
-  std::vector<std::vector<double>> integrals;  // 0..J
+  std::vector<MeshLevel> levels;                        // 0..J
+  std::vector<std::vector<double>> integrals;           // 0..J
   std::vector<std::vector<std::array<Lift, 2>>> lifts;  // 0..J-1, one an edge
   std::size_t unlifted = 0;
+
+  void refine(MeshLevel base, unsigned count) {
+    levels.push_back(std::move(base));
+    for (unsigned j = 0; j < count; ++j) levels.push_back(detail::quadrisected(levels.back()));
+    integrate();
+    find_lifts();
+  }
 
   // Finest: a third of the triangles around; coarser: even + S^T odd.
   void integrate() {
@@ -90,12 +98,14 @@ struct WaveletTransform::Implementation {
       lifts[j].resize(levels[j].edge_count());
       for (Index e = 0; e < lifts[j].size(); ++e) {
         lifts[j][e] = lift_of(j, e);
-        if (std::ranges::all_of(lifts[j][e], [](const Lift& l) { return l.vertex == MeshLevel::kNone; })) ++unlifted;
+        if (std::ranges::all_of(lifts[j][e], [](const Lift& l) { return l.vertex == MeshLevel::kNone; }))
+          ++unlifted;
       }
     }
   }
 
-  // Adds the details of a level to its even points, scaled by `sign`; in edge order, so that sums are the same always.
+  // Adds the details of a level to its even points, scaled by `sign`; in edge order, so that sums are the
+  // same always.
   void update(std::size_t j, std::span<Point> points, double sign) const {
     const Index even = levels[j].vertex_count;
     for (std::size_t e = 0; e < lifts[j].size(); ++e) {
@@ -110,13 +120,19 @@ WaveletTransform::WaveletTransform(std::span<const Triangle> base, Index vertex_
                                    const SubdivisionOptions& options)
     : implementation_(std::make_unique<Implementation>()) {
   implementation_->options = options;
-  implementation_->levels.push_back(
-      detail::make_level(base, vertex_count, [](std::size_t, std::size_t) { return false; }));
-  for (unsigned j = 0; j < levels; ++j) {
-    implementation_->levels.push_back(detail::quadrisected(implementation_->levels.back()));
-  }
-  implementation_->integrate();
-  implementation_->find_lifts();
+  implementation_->refine(
+      detail::make_level(base, vertex_count, [](std::size_t, std::size_t) { return false; }), levels);
+}
+
+WaveletTransform::WaveletTransform(const Shell& base, unsigned levels, const SubdivisionOptions& options)
+    : implementation_(std::make_unique<Implementation>()) {
+  const std::vector<std::size_t> patches = detail::patch_of_triangles(base);
+  const auto is_crease = [&](std::size_t f, std::size_t g) {
+    return options.creases && patches[f] != patches[g];
+  };
+  implementation_->options = options;
+  implementation_->refine(
+      detail::make_level(base.triangles, static_cast<Index>(base.points.size()), is_crease), levels);
 }
 
 WaveletTransform::~WaveletTransform() = default;

@@ -22,6 +22,15 @@ class Targets {
   explicit Targets(const Job& job) : job_(job) {
     for (const OutputRequest& output : job.outputs) outputs_.push_back(&set_.open(output.path));
     for (const MeshRequest& mesh : job.meshes) meshes_.push_back(&set_.open(mesh.path));
+    for (const std::string& path : job.wavelets) wavelets_.push_back(&set_.open(path));
+  }
+
+  /// As the model is at the time.
+  void write_wavelets(const Model& model, std::vector<Diagnostic>& notes) {
+    if (wavelets_.empty()) return;
+    StringSink stream;
+    write_wavelet_stream(model, job_.wavelet, stream, notes);
+    for (Sink* sink : wavelets_) sink->write(stream.text);
   }
 
   void write(Run& run, const std::vector<std::uint8_t>& png) {
@@ -46,7 +55,7 @@ class Targets {
  private:
   const Job& job_;
   OutputSet set_;
-  std::vector<Sink*> outputs_, meshes_;
+  std::vector<Sink*> outputs_, meshes_, wavelets_;
 };
 
 std::string input_name(const Job& job) {
@@ -60,7 +69,7 @@ void name_file(const Job& job, Run& run) {
   }
 }
 
-void prepare_model(const Job& job, Run& run) {
+void prepare_model(const Job& job, Targets& targets, Run& run) {
   run.timings.measure("read", [&] {
     run.model = read_model(input_name(job), job.read);
     if (job.repair) repair_model(run.model, job.segment.threads);
@@ -78,6 +87,10 @@ void prepare_model(const Job& job, Run& run) {
   const Counts counts = counts_of(run.model, {}, {});
   run.timings.count("segment", counts.patches);
   if (job.subdivisions > 0) run.timings.count("subdivide", counts.triangles);
+  if (!job.wavelets.empty()) {
+    run.timings.measure("wavelet", [&] { targets.write_wavelets(run.model, run.model.diagnostics); });
+    run.timings.count("wavelet", counts.triangles);
+  }
   if (job.simplify.goal != SimplifyGoal::None) {
     run.timings.measure("simplify", [&] { run.simplifications = simplify_model(run.model, job.simplify); });
     run.timings.count("simplify", counts.triangles);
@@ -111,12 +124,12 @@ std::vector<std::uint8_t> draw(const Job& job, Run& run) {
 Run run(const Job& job) {
   Run run;
   Targets targets(job);
-  prepare_model(job, run);
+  prepare_model(job, targets, run);
   find_contours(job, run);
   const std::vector<std::uint8_t> png = draw(job, run);
   run.timings.measure("write", [&] { targets.write(run, png); });
   name_file(job, run);
-  run.timings.count("write", job.outputs.size() + job.meshes.size());
+  run.timings.count("write", job.outputs.size() + job.meshes.size() + job.wavelets.size());
   return run;
 }
 

@@ -12,6 +12,7 @@
 #include "read/ply.hpp"
 #include "read/stl.hpp"
 #include "read/swp.hpp"
+#include "read/wavelet.hpp"
 #include "read/webxml.hpp"
 
 namespace meshcontour::detail {
@@ -73,6 +74,7 @@ std::span<const Format> formats() {
       {"PLY", {"ply"}, sniff_ply, read_ply},
       {"OFF", {"off"}, sniff_off, read_off},
       {"OBJ", {"obj"}, sniff_obj, read_obj},
+      {"wavelet stream", {"mcw"}, sniff_wavelet, read_wavelet},
   };
   return table;
 }

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "meshcontour/output.hpp"
+#include "multires/stream_bytes.hpp"
+
+namespace meshcontour::detail {
+
+/// The frame of a wavelet stream: a signature, a version, then blocks of a kind, the length of their
+/// compressed bytes and these: a zstd frame with its checksum. The end block has none.
+inline constexpr std::string_view kStreamSignature = "\x8FMCWAVE\n";
+inline constexpr std::uint8_t kStreamVersion = 1;
+
+enum class BlockKind : std::uint8_t { Base = 'B', Details = 'D', End = 'E' };
+
+/// No block is larger before compression.
+inline constexpr std::size_t kLargestBlock = std::size_t{1} << 18;
+
+class BlockWriter {
+ public:
+  /// Writes signature and version.
+  explicit BlockWriter(Sink& sink);
+
+  /// Writes bytes as blocks of one kind, cut where they are too many for one.
+  void write(BlockKind kind, std::string_view bytes);
+  void end();
+
+ private:
+  Sink& sink_;
+};
+
+struct Block {
+  BlockKind kind = BlockKind::End;
+  std::string bytes;
+};
+
+class BlockReader {
+ public:
+  /// @throws Error  BadData if signature or version are wrong.
+  BlockReader(std::string_view bytes, std::string_view name);
+
+  /// The next block, nothing where the bytes end in or before it.
+  ///
+  /// @throws Error  BadData if it is damaged, or something follows the end block.
+  std::optional<Block> next();
+
+ private:
+  ByteReader in_;
+  std::size_t number_ = 0;
+};
+
+}  // namespace meshcontour::detail

@@ -1,0 +1,229 @@
+// What must hold of subdivision and of the lifted transform, whatever the mesh.
+
+#include "meshcontour/wavelet.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <numbers>
+
+#include "multires/level.hpp"
+#include "multires/stencil.hpp"
+#include "support/catch.hpp"
+#include "surfaces.hpp"
+
+using namespace meshcontour;
+
+namespace {
+
+using detail::MeshLevel;
+using surfaces::uniform;
+
+// A vertex of valence k in the middle of `rings` rings of regular ones.
+Shell rings_around(Index k, Index rings) {
+  std::vector<Point> points = {Point::Zero()};
+  const auto at = [&](Index ring, Index i) {
+    return ring == 0 ? 0 : 1 + k * ring * (ring - 1) / 2 + i % (k * ring);
+  };
+  for (Index r = 1; r <= rings; ++r) {
+    for (Index i = 0; i < k * r; ++i) {
+      const double angle = 2 * std::numbers::pi * i / (k * r);
+      points.push_back({r * std::cos(angle), r * std::sin(angle), 0});
+    }
+  }
+  std::vector<Triangle> triangles;
+  for (Index r = 1; r <= rings; ++r) {
+    for (Index side = 0; side < k; ++side) {
+      for (Index i = 0; i < r; ++i) {
+        const Index inner = side * (r - 1) + i, outer = side * r + i;
+        triangles.push_back({at(r - 1, inner), at(r, outer), at(r, outer + 1)});
+        if (i + 1 < r) triangles.push_back({at(r - 1, inner), at(r, outer + 1), at(r - 1, inner + 1)});
+      }
+    }
+  }
+  return surfaces::shell_of(std::move(points), std::move(triangles));
+}
+
+// A regular lattice: n x n squares of two triangles, points sheared so that triangles are alike.
+Shell lattice(Index n) {
+  Shell shell = surfaces::height_field(n, false, 0);
+  shell.patches = {{"", {}, 0, shell.triangles.size()}};
+  for (Point& p : shell.points) p = Point(p.x() + p.y() / 2, p.y(), 0);
+  return shell;
+}
+
+double largest(const std::vector<Point>& points) {
+  double size = 0;
+  for (const Point& p : points) size = std::max(size, p.cwiseAbs().maxCoeff());
+  return size;
+}
+
+double apart(const std::vector<Point>& a, const std::vector<Point>& b) {
+  double worst = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, (a[i] - b[i]).norm());
+  return worst;
+}
+
+Shell some_base(int kind) {
+  if (kind == 0) return surfaces::octahedron();
+  if (kind == 1) return rings_around(7, 2);
+  if (kind == 2) return surfaces::height_field(4, true);
+  return surfaces::bumpy_sphere(1);
+}
+
+Point mean_of(const std::vector<Point>& points, std::span<const double> integrals) {
+  Point sum = Point::Zero();
+  double all = 0;
+  for (std::size_t v = 0; v < integrals.size(); ++v) {
+    sum += integrals[v] * points[v];
+    all += integrals[v];
+  }
+  return sum / all;
+}
+
+}  // namespace
+
+TEST_CASE("subdivided: the local spectrum is 1, 1/2, 1/2, 1/4", "[multires][property]") {
+  const Index valence = GENERATE(range(3u, 17u));
+  // Three rings determine three rings of half the size; the matrix maps the values on one to those on the
+  // other.
+  const Shell coarse = rings_around(valence, 4);
+  const Shell fine = subdivided(coarse, 1);
+  const std::size_t size = 1 + 6 * valence;  // vertices of three rings
+  const MeshLevel level = detail::make_level(fine.triangles, static_cast<Index>(fine.points.size()),
+                                             [](std::size_t, std::size_t) { return false; });
+  const MeshLevel start = detail::make_level(coarse.triangles, static_cast<Index>(coarse.points.size()),
+                                             [](std::size_t, std::size_t) { return false; });
+  // The same place in both: they are walked through at once, from the middle.
+  std::vector<Index> partner(coarse.points.size(), MeshLevel::kNone);
+  std::vector<std::pair<Index, Index>> queue = {{start.outgoing[0], level.outgoing[0]}};
+  std::vector<bool> seen(start.twins.size(), false);
+  while (!queue.empty()) {
+    auto [h, g] = queue.back();
+    queue.pop_back();
+    if (seen[h]) continue;
+    for (int k = 0; k < 3; ++k, h = MeshLevel::next(h), g = MeshLevel::next(g)) {
+      seen[h] = true;
+      partner[start.start(h)] = level.start(g);
+      const Index across = start.twins[h], other = level.twins[g];
+      if (across != MeshLevel::kNone && other != MeshLevel::kNone) queue.emplace_back(across, other);
+    }
+  }
+  Eigen::MatrixXd matrix(size, size);
+  for (std::size_t column = 0; column < size; ++column) {
+    Shell unit = coarse;
+    for (Point& p : unit.points) p = Point::Zero();
+    unit.points[column].x() = 1;
+    const Shell image_of_unit = subdivided(unit, 1);
+    for (std::size_t row = 0; row < size; ++row) {
+      matrix(Eigen::Index(row), Eigen::Index(column)) = image_of_unit.points[partner[row]].x();
+    }
+  }
+  Eigen::VectorXd moduli = matrix.eigenvalues().cwiseAbs();
+  std::sort(moduli.begin(), moduli.end(), std::greater{});
+  CHECK(moduli[0] == Approx(1).margin(1e-10));
+  CHECK(moduli[1] == Approx(0.5).margin(1e-10));
+  CHECK(moduli[2] == Approx(0.5).margin(1e-10));
+  CHECK(moduli[3] == Approx(0.25).margin(1e-8));
+}
+
+TEST_CASE("subdivided: cubics are kept inside regular lattices, linear functions everywhere",
+          "[multires][property]") {
+  std::mt19937 random(1);
+  const Index n = 12;
+  Shell shell = lattice(n);
+  const std::vector<Point> places = shell.points;
+  std::array<double, 10> c{};
+  for (double& x : c) x = uniform(random);
+  const auto cubic = [&](double x, double y) {
+    return c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y + c[6] * x * x * x +
+           c[7] * x * x * y + c[8] * x * y * y + c[9] * y * y * y;
+  };
+  for (Point& p : shell.points) p.z() = cubic(p.x(), p.y());
+  const Shell fine = subdivided(shell, 1);
+  double worst_cubic = 0, worst_linear = 0;
+  for (const Point& p : fine.points) {
+    const double v = p.y() * n, u = (p.x() - p.y() / 2) * n;
+    const bool inside = u > 2.1 && u < n - 2.1 && v > 2.1 && v < n - 2.1;
+    if (inside) worst_cubic = std::max(worst_cubic, std::abs(p.z() - cubic(p.x(), p.y())));
+  }
+  CHECK(worst_cubic <= 1e-13);
+  for (Point& p : shell.points) p.z() = 3 * p.x() - 2 * p.y() + 1;
+  for (const Point& p : subdivided(shell, 2).points) {
+    worst_linear = std::max(worst_linear, std::abs(p.z() - (3 * p.x() - 2 * p.y() + 1)));
+  }
+  CHECK(worst_linear <= 1e-13);
+}
+
+TEST_CASE("WaveletTransform: random details come back, the mean stays", "[multires][property]") {
+  const int kind = GENERATE(range(0, 4));
+  const unsigned levels = kind == 0 ? 8 : 4;
+  const Shell base = some_base(kind);
+  const WaveletTransform transform(base, levels);
+  std::mt19937 random(static_cast<unsigned>(kind));
+  std::vector<Point> points(transform.vertex_count(levels));
+  for (Point& p : points) p = Point(uniform(random), uniform(random), uniform(random));
+  const std::vector<Point> given = points;
+  transform.synthesise(points);
+  const double size = largest(points);
+  const std::vector<Point> fine = points;
+  transform.analyse(points);
+  CHECK(apart(points, given) <= 1e-12 * size);
+  if (transform.unlifted() == 0) {
+    const Point coarse = mean_of(points, transform.integrals(0)),
+                finest = mean_of(fine, transform.integrals(levels));
+    CHECK((coarse - finest).norm() <= 1e-12 * size);
+  }
+}
+
+TEST_CASE("WaveletTransform: a subdivided mesh has no details", "[multires][property]") {
+  const Shell base = some_base(GENERATE(range(0, 4)));
+  const WaveletTransform transform(base, 3);
+  std::vector<Point> points = subdivided(base, 3).points;
+  const double size = largest(points);
+  transform.analyse(points);
+  for (std::size_t v = base.points.size(); v < points.size(); ++v) CHECK(points[v].norm() <= 1e-13 * size);
+}
+
+TEST_CASE("WaveletTransform: the same bits for any number of threads", "[multires][property]") {
+  const Shell base = surfaces::bumpy_sphere(1);
+  std::vector<Point> points = surfaces::bumpy_sphere(5, 0.3).points;
+  std::vector<Point> one = points, many = points;
+  WaveletTransform(base, 4, {.threads = 1}).analyse(one);
+  WaveletTransform(base, 4, {.threads = 4}).analyse(many);
+  CHECK(one == many);
+}
+
+TEST_CASE("find_subdivision: a shuffled subdivision is found and put in order", "[multires][property]") {
+  const int kind = GENERATE(range(0, 4));
+  const unsigned levels = GENERATE(1u, 3u);
+  const Shell base = some_base(kind);
+  const Shell fine = subdivided(base, levels), mixed = surfaces::shuffled(fine, 17);
+  const SubdivisionConnectivity found = find_subdivision(mixed);
+  REQUIRE(found.levels >= levels);
+  const Shell again = subdivided(found.base, found.levels);
+  REQUIRE(again.triangles.size() == mixed.triangles.size());
+  REQUIRE(found.order.size() == mixed.points.size());
+  for (std::size_t p = 0; p < mixed.patches.size(); ++p) {
+    // Each triangle as the three vertices of the shuffled shell, the smallest first.
+    const auto triangles = [&](const Shell& shell, const auto& name) {
+      std::set<Triangle> out;
+      for (const Triangle& t : shell.patch_triangles(p)) {
+        Triangle u = {name(t[0]), name(t[1]), name(t[2])};
+        std::rotate(u.begin(), std::min_element(u.begin(), u.end()), u.end());
+        out.insert(u);
+      }
+      return out;
+    };
+    CHECK(triangles(again, [&](Index v) { return found.order[v]; }) ==
+          triangles(mixed, [](Index v) { return v; }));
+  }
+}
+
+TEST_CASE("find_subdivision: other meshes are none", "[multires]") {
+  Shell shell = surfaces::bumpy_sphere(2);
+  shell.triangles.pop_back();
+  --shell.patches.back().triangle_count;
+  CHECK(find_subdivision(shell).levels == 0);
+  CHECK(find_subdivision(surfaces::octahedron()).levels == 0);
+  CHECK(find_subdivision(surfaces::height_field(5, false)).levels == 0);
+  CHECK(find_subdivision(Shell{}).levels == 0);
+}
