@@ -17,7 +17,7 @@ namespace meshcontour::app {
 namespace {
 
 constexpr const char* kFooter = R"(The kind of an output follows its extension: .png .csv .obj .step
-.dxf .svg .json
+.dxf .svg .json .glb
 With several inputs use {stem}, {dir} and {n} in the names of the outputs.
 Angles are in degrees, lengths in the unit of the model.
 
@@ -66,7 +66,7 @@ void add_output_options(Group group, CommandLine& line) {
   group.add_choice("--dxf", line.job.write.dxf, kDxfContents, "Entities of a .dxf");
   group.add_choice("--step", line.job.write.step, kStepSchemas, "Schema of a .step");
   group.add_choice("--edges", line.job.write.edges, kEdgeUses,
-                   "Edges that two patches share, in .obj curves, .step, .dxf, .svg");
+                   "Edges that two patches share, in .obj curves, .step, .dxf, .svg, .glb");
 }
 
 void add_model_options(Group group, CommandLine& line) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "meshcontour/parallel.hpp"
-#include "render/normals.hpp"
+#include "model/normals.hpp"
 
 namespace meshcontour::detail {
 namespace {

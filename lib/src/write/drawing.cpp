@@ -128,6 +128,7 @@ Group patch_group(const Result& result, const Instance& instance, std::size_t pa
   const Place place{shell, instance.placement, identity};
   const auto& loops = result.boundaries[instance.shell].patches[patch].loops;
   Group group;
+  group.patch = patch;
   group.layer = patch_name(shell, patch);
   group.name = group.layer + suffix;
   for (std::size_t l = 0; l < loops.size(); ++l) {
@@ -142,26 +143,6 @@ Group patch_group(const Result& result, const Instance& instance, std::size_t pa
   return group;
 }
 
-void visit_instances(const Result& result, EdgeUse edges, LoopShape shape,
-                     const std::function<void(const Group&)>& visit) {
-  const Model& model = result.model;
-  std::vector<std::size_t> occurrences(model.shells.size(), 0), occurrence(model.shells.size(), 0);
-  for (const Instance& instance : model.instances) ++occurrences[instance.shell];
-  Repeats repeats(result, edges);
-  for (const Instance& instance : model.instances) {
-    const std::size_t number = ++occurrence[instance.shell];
-    const std::string suffix =
-        occurrences[instance.shell] > 1 ? fmt::format("_instance_{}", number) : std::string();
-    const std::size_t patches =
-        result.boundaries.empty() ? 0 : result.boundaries[instance.shell].patches.size();
-    repeats.begin_shell();
-    for (std::size_t p = 0; p < patches; ++p) {
-      const Group group = patch_group(result, instance, p, suffix, shape, repeats);
-      if (!group.chains.empty()) visit(group);
-    }
-  }
-}
-
 std::string annotation_name(const Polyline& line, std::size_t number) {
   return line.name.empty() ? fmt::format("annotation_{}", number + 1)
                            : fmt::format("annotation_{}", line.name);
@@ -173,21 +154,43 @@ std::string curve_name(const NamedCurve& curve, std::size_t number) {
 
 }  // namespace
 
+void for_each_patch_group(const Result& result, std::span<const Instance> instances, EdgeUse edges,
+                          LoopShape shape, const std::function<void(std::size_t, const Group&)>& visit) {
+  const std::size_t shells = result.model.shells.size();
+  std::vector<std::size_t> occurrences(shells, 0), occurrence(shells, 0);
+  for (const Instance& instance : instances) ++occurrences[instance.shell];
+  Repeats repeats(result, edges);
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const Instance& instance = instances[i];
+    const std::size_t number = ++occurrence[instance.shell];
+    const std::string suffix =
+        occurrences[instance.shell] > 1 ? fmt::format("_instance_{}", number) : std::string();
+    const std::size_t patches =
+        result.boundaries.empty() ? 0 : result.boundaries[instance.shell].patches.size();
+    repeats.begin_shell();
+    for (std::size_t p = 0; p < patches; ++p) {
+      const Group group = patch_group(result, instance, p, suffix, shape, repeats);
+      if (!group.chains.empty()) visit(i, group);
+    }
+  }
+}
+
 void for_each_group(const Result& result, EdgeUse edges, LoopShape shape,
                     const std::function<void(const Group&)>& visit) {
-  visit_instances(result, edges, shape, visit);
   const Model& model = result.model;
+  for_each_patch_group(result, model.instances, edges, shape,
+                       [&](std::size_t, const Group& group) { visit(group); });
   for (std::size_t i = 0; i < model.annotations.size(); ++i) {
     const Polyline& line = model.annotations[i];
     if (line.points.size() < 2) continue;
     const std::string name = annotation_name(line, i);
-    visit({name, name, {{name, false, {}, line.points}}});
+    visit({name, name, {{name, false, {}, line.points}}, 0});
   }
   for (std::size_t i = 0; i < model.curves.size(); ++i) {
     const std::string name = curve_name(model.curves[i], i);
     const Curve& curve = model.curves[i].curve;
     const bool closed = start_of(curve) == end_of(curve);
-    visit({name, name, {{name, closed, {curve}, {}}}});
+    visit({name, name, {{name, closed, {curve}, {}}}, 0});
   }
 }
 

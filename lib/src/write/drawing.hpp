@@ -23,6 +23,7 @@ struct Group {
   std::string name;   ///< of this occurrence
   std::string layer;  ///< the same for all occurrences of the patch
   std::vector<Chain> chains;
+  std::size_t patch = 0;  ///< of a patch's chains: its index in the shell
 };
 
 /// What becomes of a loop that has a contour.
@@ -32,6 +33,11 @@ enum class LoopShape { Fitted, Polygon };
 /// curves. One group at a time is in memory.
 void for_each_group(const Result& result, EdgeUse edges, LoopShape shape,
                     const std::function<void(const Group&)>& visit);
+
+/// The groups of the patches of the given instances, which need not be the model's; `visit` also gets the
+/// number of the instance, from 0.
+void for_each_patch_group(const Result& result, std::span<const Instance> instances, EdgeUse edges,
+                          LoopShape shape, const std::function<void(std::size_t, const Group&)>& visit);
 
 /// The layers of all groups, each once, in order of first use.
 std::vector<std::string> layers(const Result& result);

@@ -18,17 +18,18 @@ struct Row {
   Writer writer;  // null: a picture
 };
 
-constexpr std::array<Row, 8> kFormats = {{{"png", OutputFormat::Png, nullptr},
+constexpr std::array<Row, 9> kFormats = {{{"png", OutputFormat::Png, nullptr},
                                           {"csv", OutputFormat::Csv, detail::write_csv},
                                           {"obj", OutputFormat::Obj, detail::write_obj},
                                           {"step", OutputFormat::Step, detail::write_step},
                                           {"dxf", OutputFormat::Dxf, detail::write_dxf},
                                           {"svg", OutputFormat::Svg, detail::write_svg},
                                           {"json", OutputFormat::Json, detail::write_json},
+                                          {"glb", OutputFormat::Glb, detail::write_glb},
                                           {"stp", OutputFormat::Step, detail::write_step}}};
 
 constexpr auto kNames = [] {
-  std::array<std::string_view, 7> names;
+  std::array<std::string_view, 8> names;
   for (std::size_t i = 0; i < names.size(); ++i) names[i] = kFormats[i].name;
   return names;
 }();

@@ -1,4 +1,4 @@
-#include "render/normals.hpp"
+#include "model/normals.hpp"
 
 #include <algorithm>
 #include <cmath>

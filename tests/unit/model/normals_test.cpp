@@ -1,6 +1,6 @@
-#include "render/normals.hpp"
+#include "model/normals.hpp"
 
-#include "solids.hpp"
+#include "unit/render/solids.hpp"
 #include "support/catch.hpp"
 
 using namespace meshcontour;
@@ -16,7 +16,7 @@ Eigen::Vector3f outward(const Shell& shell, std::size_t corner) {
 
 }  // namespace
 
-TEST_CASE("lighting_normals: smooth on a cylinder's side, flat on its ends", "[render]") {
+TEST_CASE("lighting_normals: smooth on a cylinder's side, flat on its ends", "[model]") {
   const Shell shell = cylinder(34, 10, 15);
   const auto normals = detail::lighting_normals(shell, 2);
   REQUIRE(normals.size() == 3 * shell.triangles.size());
@@ -25,7 +25,7 @@ TEST_CASE("lighting_normals: smooth on a cylinder's side, flat on its ends", "[r
   for (std::size_t c = 3 * 102; c < normals.size(); ++c) CHECK(normals[c].z() == 1.0F);
 }
 
-TEST_CASE("lighting_normals: sharp edges inside a patch stay sharp", "[render]") {
+TEST_CASE("lighting_normals: sharp edges inside a patch stay sharp", "[model]") {
   Shell shell = cylinder(34, 10, 15);
   shell.patches = {{"all", {}, 0, shell.triangles.size()}};
   const auto normals = detail::lighting_normals(shell, 1);
@@ -33,7 +33,7 @@ TEST_CASE("lighting_normals: sharp edges inside a patch stay sharp", "[render]")
   CHECK(normals[3 * 68].z() == -1.0F);
 }
 
-TEST_CASE("lighting_normals: the file's are kept, turned to the winding's outside", "[render]") {
+TEST_CASE("lighting_normals: the file's are kept, turned to the winding's outside", "[model]") {
   Shell shell = rectangle({0, 0, 0}, {1, 1, 0}, {});
   const Vector tilted = Vector(0.6, 0, 0.8);
   shell.corner_normals.assign(6, tilted);
@@ -43,7 +43,7 @@ TEST_CASE("lighting_normals: the file's are kept, turned to the winding's outsid
 }
 
 TEST_CASE("lighting_normals: unknown corners are computed, triangles without area have some normal",
-          "[render]") {
+          "[model]") {
   Shell shell = rectangle({0, 0, 0}, {1, 1, 0}, {});
   shell.triangles.push_back({0, 0, 1});
   shell.patches[0].triangle_count = 3;
@@ -55,7 +55,7 @@ TEST_CASE("lighting_normals: unknown corners are computed, triangles without are
   for (const auto& normal : normals) CHECK(normal.norm() == Approx(1));
 }
 
-TEST_CASE("lighting_normals: a fan of a hundred thousand triangles takes no quadratic time", "[render]") {
+TEST_CASE("lighting_normals: a fan of a hundred thousand triangles takes no quadratic time", "[model]") {
   const Shell shell = cylinder(100'000, 10, 15);
   const auto normals = detail::lighting_normals(shell, 2);
   CHECK(normals[3 * 250'000].norm() == Approx(1));
