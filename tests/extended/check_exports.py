@@ -181,7 +181,26 @@ def check_obj_curves(path, wanted, size):
     return f"{len(found)} curves"
 
 
+def check_glb(path, wanted, size):
+    """Chords of the loops, in metres with y up, and the triangles of all instances."""
+    lines, triangles = readers.read_glb(path)
+    model = lines[..., [0, 2, 1]] * [1, -1, 1] / (truth.millimetres(path.parent) / 1000)
+    ends = model.reshape(-1, 3)
+    chains = [w.polygon if w.polygon is not None else np.concatenate([s.dense for s in w.segments]) for w in wanted]
+    tree = cKDTree(np.concatenate(chains))
+    spacing = max(np.linalg.norm(np.diff(c, axis=0), axis=1).max() for c in chains)
+    require(tree.query(ends)[0].max() <= spacing, "a line runs elsewhere")
+    length = sum(sum(s.length for s in w.segments) for w in wanted if w.polygon is None)
+    closed = [np.vstack([w.polygon, w.polygon[:1]]) if w.closed else w.polygon for w in wanted if w.polygon is not None]
+    length += sum(np.linalg.norm(np.diff(c, axis=0), axis=1).sum() for c in closed)
+    total = np.linalg.norm(model[:, 0] - model[:, 1], axis=1).sum()
+    require(abs(total - length) <= 1e-3 * length, f"lines of length {total!r}, not {length!r}")
+    require(triangles == truth.triangles(path.parent), f"{triangles} triangles")
+    return f"{len(lines)} lines, {triangles} triangles"
+
+
 CHECKS = {
+    "model.glb": check_glb,
     "ap242.step": check_step,
     "ap214.step": check_step,
     "curves.dxf": check_dxf,

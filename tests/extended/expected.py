@@ -157,6 +157,14 @@ def millimetres(folder):
     return 1000 * metres if metres else 1.0
 
 
+def triangles(folder):
+    """Of all instances."""
+    with open(folder / "model.json", encoding="utf-8") as file:
+        doc = json.load(file)
+    return sum(patch["triangles"] for instance in doc["instances"] for patch in doc["patches"]
+               if patch["shell"] == instance["shell"])
+
+
 def load(path):
     """The expected loops in the order of the geometry files."""
     with open(path, encoding="utf-8") as file:

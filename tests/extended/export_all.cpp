@@ -69,6 +69,7 @@ void write_all(const Sample& s, const std::filesystem::path& folder) {
   write("curves.dxf", OutputFormat::Dxf, plain);
   write("polyline.dxf", OutputFormat::Dxf, other);
   write("polylines.obj", OutputFormat::Obj, plain);
+  write("model.glb", OutputFormat::Glb, plain);
   write("curves.obj", OutputFormat::Obj, other);
 }
 

@@ -1,6 +1,7 @@
-"""Exports as independent programs read them: STEP by OpenCASCADE, DXF by ezdxf, SVG by svgpathtools, OBJ polylines by
-VTK, OBJ curves by a reader of its own and scipy. Each gives Found loops in file order."""
+"""Exports as independent programs read them: STEP by OpenCASCADE, DXF by ezdxf, SVG by svgpathtools, OBJ polylines
+and GLB by VTK, OBJ curves by a reader of its own and scipy. Each gives Found loops in file order."""
 
+import pathlib
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -252,3 +253,36 @@ def read_obj_curves(path):
                 clamped = k[0] == k[d] and k[-1] == k[len(p)]
                 out.append((name, h[:, :3] / h[:, 3:], clamped))
     return out
+
+
+# --- GLB ------------------------------------------------------------------------------------------------------------
+
+def read_glb(path):
+    """The lines of the meshes of curves as pairs of points, and the number of triangles, as VTK places them: in metres,
+    with y up."""
+    import json
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
+    from vtkmodules.vtkIOGeometry import vtkGLTFReader
+    content = pathlib.Path(path).read_bytes()
+    meshes = json.loads(content[20:20 + int.from_bytes(content[12:16], "little")]).get("meshes", [])
+    reader = vtkGLTFReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    lines, triangles = [np.zeros((0, 2, 3))], 0
+
+    def visit(block, mesh):
+        nonlocal triangles
+        if block.IsA("vtkMultiBlockDataSet"):
+            for i in range(block.GetNumberOfBlocks()):
+                name = block.GetMetaData(i).Get(vtkCompositeDataSet.NAME()) if block.HasMetaData(i) else None
+                is_mesh = (name or "").startswith("Mesh_")
+                visit(block.GetBlock(i), meshes[int(name[5:])]["name"] if is_mesh else mesh)
+            return
+        triangles += block.GetNumberOfPolys()
+        if block.GetNumberOfLines() > 0 and mesh.endswith(("curves", "annotations")):
+            points = vtk_to_numpy(block.GetPoints().GetData()).astype(float)
+            lines.append(points[vtk_to_numpy(block.GetLines().GetConnectivityArray()).reshape(-1, 2)])
+
+    visit(reader.GetOutput(), "")
+    return np.concatenate(lines), triangles
