@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <set>
 #include <thread>
@@ -25,8 +26,8 @@ void print_results(const std::string& text) {
   }
 }
 
-std::vector<Job> make_jobs(const CommandLine& line, const std::vector<std::string>& inputs) {
-  std::vector<Job> jobs;
+std::vector<FileJob> make_jobs(const CommandLine& line, const std::vector<std::string>& inputs) {
+  std::vector<FileJob> jobs;
   std::set<std::string> paths;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     jobs.push_back(make_job(line, inputs[i], i + 1, inputs.size() > 1));
@@ -39,7 +40,7 @@ std::vector<Job> make_jobs(const CommandLine& line, const std::vector<std::strin
 }
 
 // What a worker that could not answer leaves behind.
-Outcome lost_outcome(const Job& job, const TaskResult& result, const CommandLine& line) {
+Outcome lost_outcome(const FileJob& job, const TaskResult& result, const CommandLine& line) {
   Outcome outcome;
   outcome.report.file = job.input;
   const std::string name = printable(job.input);
@@ -56,15 +57,38 @@ Outcome lost_outcome(const Job& job, const TaskResult& result, const CommandLine
   return outcome;
 }
 
+// Keeps the models of a page within its limit: those of the first inputs, in whatever order they come.
+class ModelLimit {
+ public:
+  void apply(std::vector<FileReport>& reports, std::size_t job) {
+    if (reports[job].preview.model.empty()) return;
+    kept_.insert(job);
+    total_ += reports[job].preview.model_size;
+    while (!kept_.empty() && (total_ > kLargestPageModels || *kept_.rbegin() >= first_left_out_)) {
+      const std::size_t last = *kept_.rbegin();
+      first_left_out_ = std::min(first_left_out_, last);
+      total_ -= reports[last].preview.model_size;
+      reports[last].preview.model = std::string();
+      kept_.erase(last);
+    }
+  }
+
+ private:
+  std::set<std::size_t> kept_;
+  std::uint64_t total_ = 0;
+  std::size_t first_left_out_ = std::numeric_limits<std::size_t>::max();
+};
+
 // Takes outcomes as they come, prints them in the order of the inputs and keeps their reports.
 class Collector {
  public:
-  Collector(const std::vector<Job>& jobs, Journal& journal, const CommandLine& line)
+  Collector(const std::vector<FileJob>& jobs, Journal& journal, const CommandLine& line)
       : jobs_(jobs), journal_(journal), progress_(jobs.size(), line.verbosity), reports_(jobs.size()) {}
 
   void take(std::size_t job, Outcome outcome) {
     if (outcome.report.outcome == FileReport::Outcome::Done) journal_.add(jobs_[job]);
-    reports_[job] = outcome.report;
+    reports_[job] = std::move(outcome.report);
+    limit_.apply(reports_, job);
     waiting_.emplace(job, std::move(outcome));
     progress_.step(jobs_[job].input);
     for (auto next = waiting_.begin(); next != waiting_.end() && next->first == printed_; ++printed_) {
@@ -83,9 +107,10 @@ class Collector {
     fmt::print(stderr, "{}", outcome.errors);
   }
 
-  const std::vector<Job>& jobs_;
+  const std::vector<FileJob>& jobs_;
   Journal& journal_;
   Progress progress_;
+  ModelLimit limit_;
   std::vector<FileReport> reports_;
   std::map<std::size_t, Outcome> waiting_;
   std::size_t printed_ = 0;
@@ -96,7 +121,7 @@ unsigned worker_count(const CommandLine& line, std::size_t tasks) {
   return static_cast<unsigned>(std::min<std::size_t>(wanted, tasks));
 }
 
-void run_jobs(std::vector<Job> jobs, const CommandLine& line, Collector& collector, const Journal& journal) {
+void run_jobs(std::vector<FileJob> jobs, const CommandLine& line, Collector& collector, const Journal& journal) {
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     if (!journal.holds(jobs[i])) {
@@ -115,7 +140,7 @@ void run_jobs(std::vector<Job> jobs, const CommandLine& line, Collector& collect
   }
   const unsigned workers = worker_count(line, open.size());
   if (workers > 1) {
-    for (Job& job : jobs) set_threads(job, 1);
+    for (FileJob& job : jobs) set_threads(job, 1);
   }
   run_in_workers(
       open.size(), {workers, line.timeout, line.max_memory},
@@ -152,7 +177,7 @@ class Reports {
 
 int run(const CommandLine& line) {
   prepare_process();
-  const std::vector<Job> jobs = make_jobs(line, take_shard(expand_inputs(line.inputs), line.shard));
+  const std::vector<FileJob> jobs = make_jobs(line, take_shard(expand_inputs(line.inputs), line.shard));
   Reports reports(line);
   Journal journal(line.resume, line);
   Collector collector(jobs, journal, line);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <tuple>
@@ -17,8 +18,9 @@ namespace meshcontour::app {
 namespace {
 
 constexpr const char* kFooter = R"(The kind of an output follows its extension: .png .csv .obj .step
-.dxf .svg .json .glb
-With several inputs use {stem}, {dir} and {n} in the names of the outputs.
+.dxf .svg .json .glb .html
+With several inputs use {stem}, {dir} and {n} in the names of the outputs; an
+.html without them is one page of all inputs.
 Angles are in degrees, lengths in the unit of the model.
 
 Exit codes: 0 ok, 64 usage, 65 bad data, 66 no input, 69 no renderer,
@@ -43,7 +45,7 @@ void add_output_options(Group group, CommandLine& line) {
   };
   group.add_each(
       "--report", "[FORMAT:]FILE", parse_report,
-      "Write counts and the time of each stage, repeatable: json (default), gbench, junit, gha, trace");
+      "Write counts and the time of each stage, repeatable: json (default), gbench, junit, gha, trace, html");
   group.add_flag("--timings", line.job.timings_in_json,
                  "List these times in .json outputs too, whose bytes then differ from run to run");
   const auto add_mesh = [&line](const std::string& path) { line.meshes.push_back(path); };
@@ -215,6 +217,34 @@ std::string output_path(const std::string& name, const std::string& input, std::
   return path;
 }
 
+std::string extension(const std::string& path) {
+  return std::filesystem::path(path).extension().string();
+}
+
+// Outputs that are pages become reports: one of all inputs, or one of each where the name tells inputs apart.
+void take_pages(CommandLine& line) {
+  std::vector<std::string> outputs, formats;
+  auto format = line.formats.begin();
+  for (const std::string& output : line.outputs) {
+    const bool named = extension(output) == ".html" || extension(output) == ".htm";
+    const bool by_format = !named && !output_format(extension(output)) && format != line.formats.end();
+    if (named || (by_format && *format == "html")) {
+      if (fill_template(output, "input", 1) == output) {
+        line.reports.emplace_back(ReportFormat::Html, output);
+      } else {
+        line.pages.push_back(output);
+      }
+    } else {
+      outputs.push_back(output);
+      if (by_format) formats.push_back(*format);
+    }
+    if (by_format) ++format;
+  }
+  formats.insert(formats.end(), format, line.formats.end());
+  line.outputs = outputs;
+  line.formats = formats;
+}
+
 // Nothing is left to do when it answers --help or --version.
 bool parse(OptionTable& table, int argc, const char* const* argv) {
   try {
@@ -241,11 +271,12 @@ void set_threads(Job& job, unsigned threads) {
       job.render.threads = threads;
 }
 
-std::vector<std::string> output_paths(const Job& job) {
+std::vector<std::string> output_paths(const FileJob& job) {
   std::vector<std::string> paths;
   for (const OutputRequest& output : job.outputs) paths.push_back(output.path);
   for (const MeshRequest& mesh : job.meshes) paths.push_back(mesh.path);
   paths.insert(paths.end(), job.wavelets.begin(), job.wavelets.end());
+  paths.insert(paths.end(), job.pages.begin(), job.pages.end());
   return paths;
 }
 
@@ -282,16 +313,18 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
   line.job.wavelet.subdivide = line.job.subdivide;
   line.job.write.timestamp = source_date_epoch().value_or(line.job.write.timestamp);
   line.options_text = options_text(app);
+  take_pages(line);
   return line;
 }
 
-Job make_job(const CommandLine& command_line, const std::string& input, std::size_t number, bool several) {
-  Job job = command_line.job;
+FileJob make_job(const CommandLine& command_line, const std::string& input, std::size_t number,
+                 bool several) {
+  FileJob job{command_line.job, {}};
   job.input = input;
   auto format = command_line.formats.begin();
   for (const std::string& output : command_line.outputs) {
     const std::string path = output_path(output, input, number, several);
-    auto known = output_format(std::filesystem::path(path).extension().string());
+    auto known = output_format(extension(path));
     if (!known) {
       if (format == command_line.formats.end()) {
         usage(fmt::format("the output '{}' has no known extension ({}); name its format with --format",
@@ -305,13 +338,18 @@ Job make_job(const CommandLine& command_line, const std::string& input, std::siz
   }
   for (const std::string& mesh : command_line.meshes) {
     const std::string path = output_path(mesh, input, number, several);
-    const auto known = mesh_format(std::filesystem::path(path).extension().string());
+    const auto known = mesh_format(extension(path));
     if (!known) refuse("--save-mesh", path, "a name that ends with .off, .obj, .stl or .ply");
     job.meshes.push_back({path, *known});
   }
   for (const std::string& wavelet : command_line.wavelets) {
     job.wavelets.push_back(output_path(wavelet, input, number, several));
   }
+  for (const std::string& page : command_line.pages) {
+    job.pages.push_back(output_path(page, input, number, several));
+  }
+  const auto is_page = [](const auto& report) { return report.first == ReportFormat::Html; };
+  job.preview = !job.pages.empty() || std::ranges::any_of(command_line.reports, is_page);
   return job;
 }
 

@@ -18,6 +18,7 @@ struct CommandLine {
   std::vector<std::string> meshes;   ///< templates too
   std::vector<std::string> wavelets;  ///< and these
   std::vector<std::pair<ReportFormat, std::string>> reports;
+  std::vector<std::string> pages;    ///< templates of pages of one input each
   Job job;  ///< everything but input and outputs
   bool compare = false;
   unsigned repeat = 1;  ///< runs of each job, for stable times
@@ -28,6 +29,11 @@ struct CommandLine {
   std::pair<std::size_t, std::size_t> shard{1, 1};  ///< number and count
   int verbosity = 0;                             ///< -1 quiet, 0 warnings, 1 everything
   std::string options_text;                      ///< all arguments that are not inputs; two runs with the same make the same
+};
+
+/// A job and the pages that the program itself writes about it.
+struct FileJob : Job {
+  std::vector<std::string> pages;
 };
 
 /// Parses the arguments.
@@ -41,12 +47,12 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
 /// @param number   of the input, from 1.
 /// @param several  there are other inputs: the names of outputs must differ.
 /// @throws Error   Usage if an output has no known format or its name no field that tells inputs apart.
-Job make_job(const CommandLine& command_line, const std::string& input, std::size_t number, bool several);
+FileJob make_job(const CommandLine& command_line, const std::string& input, std::size_t number, bool several);
 
 /// Makes every stage of a job use that many threads; 0: one per processor.
 void set_threads(Job& job, unsigned threads);
 
 /// The paths of everything that a job writes.
-std::vector<std::string> output_paths(const Job& job);
+std::vector<std::string> output_paths(const FileJob& job);
 
 }  // namespace meshcontour::app

@@ -39,7 +39,7 @@ Journal::Journal(const std::string& path, const CommandLine& line) : options_(li
   std::fputc('\n', file_.get());
 }
 
-std::string Journal::key(const Job& job) const {
+std::string Journal::key(const FileJob& job) const {
   std::error_code unknown;
   const auto size = fs::file_size(job.input, unknown);
   const auto time = fs::last_write_time(job.input, unknown).time_since_epoch().count();
@@ -48,7 +48,7 @@ std::string Journal::key(const Job& job) const {
   return hash(text);
 }
 
-bool Journal::holds(const Job& job) const {
+bool Journal::holds(const FileJob& job) const {
   const auto exists = [](const std::string& path) {
     std::error_code unknown;
     return fs::exists(path, unknown);
@@ -56,7 +56,7 @@ bool Journal::holds(const Job& job) const {
   return file_ && done_.contains(key(job)) && std::ranges::all_of(output_paths(job), exists);
 }
 
-void Journal::add(const Job& job) {
+void Journal::add(const FileJob& job) {
   if (!file_) return;
   fmt::print(file_.get(), "{}\n", key(job));
   std::fflush(file_.get());

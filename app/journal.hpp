@@ -20,17 +20,17 @@ class Journal {
   explicit Journal(const std::string& path, const CommandLine& line);
 
   /// Whether the job was done before, its input has not changed since and its outputs are there.
-  bool holds(const Job& job) const;
+  bool holds(const FileJob& job) const;
 
   /// Adds a job that succeeded; on disk when this returns, as far as the process goes.
-  void add(const Job& job);
+  void add(const FileJob& job);
 
  private:
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
-  std::string key(const Job& job) const;
+  std::string key(const FileJob& job) const;
 
   std::string options_;
   std::set<std::string> done_;

@@ -2,28 +2,40 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <new>
 #include <nlohmann/json.hpp>
 
 #include "compare.hpp"
+#include "meshcontour/output.hpp"
 
 namespace meshcontour::app {
 namespace {
 
-void describe(const Run& run, const Job& job, const CommandLine& line, Outcome& outcome) {
+constexpr std::size_t kMostFindings = 100;  // listed on a page
+
+void describe(const Run& run, const FileJob& job, const CommandLine& line, Outcome& outcome) {
+  FileReport& report = outcome.report;
   for (const Diagnostic& diagnostic : run.diagnostics) {
     const bool warning = diagnostic.severity == Diagnostic::Severity::Warning;
+    report.warnings += warning ? 1 : 0;
+    if (report.findings.size() < kMostFindings) report.findings.push_back(diagnostic.text());
     if (line.verbosity >= (warning ? 0 : 1))
       outcome.errors += fmt::format("meshcontour: {}\n", diagnostic.text());
   }
-  outcome.report.counts = counts_of(run.model, run.boundaries, run.contours);
+  if (run.diagnostics.size() > kMostFindings) {
+    report.findings.push_back(fmt::format("and {} more", run.diagnostics.size() - kMostFindings));
+  }
+  for (const Contour& contour : run.contours) report.deviation = std::max(report.deviation, contour.deviation);
+  report.preview = run.preview;
+  report.counts = counts_of(run.model, run.boundaries, run.contours);
   if (output_paths(job).empty() && line.reports.empty()) {
     outcome.output += summary(run.model, run.boundaries, run.contours, run.timings.stages(),
                               run.simplifications);
   }
 }
 
-void run_repeatedly(const Job& job, const CommandLine& line, Outcome& outcome) {
+void run_repeatedly(const FileJob& job, const CommandLine& line, Outcome& outcome) {
   for (unsigned repetition = 0; repetition < line.repeat; ++repetition) {
     const Run run = meshcontour::run(job);
     outcome.report.runs.push_back(run.timings.stages());
@@ -32,6 +44,26 @@ void run_repeatedly(const Job& job, const CommandLine& line, Outcome& outcome) {
     if (line.compare) compare(run.model, line, outcome);
   }
 }
+
+// The pages of this input alone; opened before the work, so that one that cannot be written is found first.
+class Pages {
+ public:
+  explicit Pages(const FileJob& job) {
+    for (const std::string& page : job.pages) sinks_.push_back(&outputs_.open(page));
+  }
+
+  void write(const FileReport& report) {
+    for (Sink* sink : sinks_) {
+      write_report(ReportFormat::Html, {&report, 1}, this_machine(), start_, *sink);
+    }
+    outputs_.commit();
+  }
+
+ private:
+  std::int64_t start_ = unix_time();
+  OutputSet outputs_;
+  std::vector<Sink*> sinks_;
+};
 
 }  // namespace
 
@@ -42,11 +74,16 @@ void fail(ErrorCode code, const std::string& message, Outcome& outcome) {
   outcome.errors += fmt::format("meshcontour: {}\n", message);
 }
 
-Outcome run_job(const Job& job, const CommandLine& line) {
+Outcome run_job(const FileJob& job, const CommandLine& line) {
   Outcome outcome;
   outcome.report.file = job.input;
   try {
+    Pages pages(job);
     run_repeatedly(job, line, outcome);
+    outcome.report.peak_memory = peak_memory();
+    pages.write(outcome.report);
+    const auto is_page = [](const auto& report) { return report.first == ReportFormat::Html; };
+    if (std::ranges::none_of(line.reports, is_page)) outcome.report.preview = {};
   } catch (const Error& error) {
     const std::string input = error.spot().file.empty() ? printable(job.input) + ": " : "";
     fail(error.code(), input + error.what(), outcome);

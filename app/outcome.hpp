@@ -15,7 +15,7 @@ struct Outcome {
 };
 
 /// Runs a job, as often as the command line says; failures are part of the outcome.
-Outcome run_job(const Job& job, const CommandLine& line);
+Outcome run_job(const FileJob& job, const CommandLine& line);
 
 /// Makes the outcome a failure and adds the message to what is printed.
 void fail(ErrorCode code, const std::string& message, Outcome& outcome);

@@ -59,6 +59,7 @@ struct Job {
   RenderOptions render;
   WriteOptions write;
   MeshWriteOptions mesh;
+  bool preview = false;          ///< make Run::preview
   bool timings_in_json = false;  ///< lists the stages' times in JSON outputs, whose bytes then change from run to run
 };
 
@@ -70,6 +71,7 @@ struct Run {
   std::vector<Simplification> simplifications;  ///< one a shell, if that was asked for
   std::vector<Diagnostic> diagnostics;
   Timings timings;
+  Preview preview;  ///< for a page, see ReportFormat::Html
 };
 
 /// Reads, cleans, segments, refines, simplifies, extracts, fits, draws and writes: the one place that knows the order of the stages and times them.

@@ -72,16 +72,30 @@ struct Counts {
   std::uint64_t boundary_edges = 0;           ///< summed over the patches
   std::uint64_t loops = 0, open_chains = 0;   ///< open chains are among the loops
   std::uint64_t segments = 0;
+  std::uint64_t lines = 0, arcs = 0, circles = 0, ellipses = 0, splines = 0;  ///< segments by kind; circles are full
 };
 
 Counts counts_of(const Model& model, std::span<const ShellBoundary> boundaries,
                  std::span<const Contour> contours);
+
+/// Adds the segments of a contour to those of its kind.
+void count_kinds(const Contour& contour, Counts& counts);
 
 /// The table that is printed when no output is asked for: counts, the loops of each patch, the time of each
 /// stage; and, where shells were simplified, how far. Of a model with many patches only those that stand out are listed.
 std::string summary(const Model& model, std::span<const ShellBoundary> boundaries,
                     std::span<const Contour> contours, std::span<const StageTime> timings,
                     std::span<const Simplification> simplifications = {});
+
+/// What a page shows of a file besides texts and numbers.
+struct Preview {
+  std::string picture;           ///< a PNG in base64; empty: there is none
+  std::string model;             ///< a GLB in base64; empty: too large, or left out
+  std::uint64_t model_size = 0;  ///< bytes of the GLB; a lower bound when it is too large
+};
+
+/// Bytes of a GLB that a page still takes, and of all those on a page.
+inline constexpr std::uint64_t kLargestPreviewModel = 4'000'000, kLargestPageModels = 64'000'000;
 
 /// What became of one input of a run.
 struct FileReport {
@@ -92,6 +106,10 @@ struct FileReport {
   int exit_code = 0;    ///< of the error; 128 + signal for a worker that died
   std::string message;  ///< why it failed or was skipped
   Counts counts;
+  double deviation = 0;               ///< the largest of the contours, model units
+  std::uint64_t warnings = 0;         ///< among the findings, the ones not listed too
+  std::vector<std::string> findings;  ///< diagnostics, as text
+  Preview preview;
   std::vector<std::vector<StageTime>> runs;  ///< the stages of each repetition
   std::uint64_t peak_memory = 0;             ///< bytes; 0: unknown
   unsigned worker = 0;                       ///< from 0
@@ -124,9 +142,10 @@ enum class ReportFormat {
   JUnit,            ///< a test case a file
   GitHubAction,     ///< github-action-benchmark's customSmallerIsBetter: medians, FILE/STAGE
   Trace,            ///< Chrome trace events: a row a worker
+  Html,             ///< a page for people, self-contained, with the previews
 };
 
-/// json, gbench, junit, gha or trace.
+/// json, gbench, junit, gha, trace or html.
 std::optional<ReportFormat> report_format(std::string_view name);
 std::span<const std::string_view> report_format_names();
 

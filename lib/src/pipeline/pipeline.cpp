@@ -5,6 +5,7 @@
 
 #include "meshcontour/cleaning.hpp"
 #include "meshcontour/output.hpp"
+#include "pipeline/preview.hpp"
 #include "pipeline/selection.hpp"
 #include "pipeline/simplification_report.hpp"
 #include "write/png.hpp"
@@ -127,6 +128,7 @@ Run run(const Job& job) {
   prepare_model(job, targets, run);
   find_contours(job, run);
   const std::vector<std::uint8_t> png = draw(job, run);
+  if (job.preview) run.timings.measure("preview", [&] { run.preview = detail::make_preview(job, run); });
   run.timings.measure("write", [&] { targets.write(run, png); });
   name_file(job, run);
   run.timings.count("write", job.outputs.size() + job.meshes.size() + job.wavelets.size());

@@ -37,8 +37,23 @@ Counts counts_of(const Model& model, std::span<const ShellBoundary> boundaries,
       for (const BoundaryLoop& loop : patch.loops) counts.open_chains += loop.closed ? 0 : 1;
     }
   }
-  for (const Contour& contour : contours) counts.segments += contour.segments.size();
+  for (const Contour& contour : contours) {
+    counts.segments += contour.segments.size();
+    count_kinds(contour, counts);
+  }
   return counts;
+}
+
+void count_kinds(const Contour& contour, Counts& counts) {
+  for (const Segment& segment : contour.segments) {
+    if (const auto* arc = std::get_if<CircularArc>(&segment.curve)) {
+      ++(arc->full() ? counts.circles : counts.arcs);
+    } else if (std::holds_alternative<LineSegment>(segment.curve)) {
+      ++counts.lines;
+    } else {
+      ++(std::holds_alternative<EllipticalArc>(segment.curve) ? counts.ellipses : counts.splines);
+    }
+  }
 }
 
 }  // namespace meshcontour

@@ -11,7 +11,7 @@ namespace {
 
 using detail::Json;
 
-constexpr std::array<std::pair<const char*, std::uint64_t Counts::*>, 10> kCounts = {
+constexpr std::array<std::pair<const char*, std::uint64_t Counts::*>, 15> kCounts = {
     {{"shells", &Counts::shells},
      {"instances", &Counts::instances},
      {"patches", &Counts::patches},
@@ -21,7 +21,12 @@ constexpr std::array<std::pair<const char*, std::uint64_t Counts::*>, 10> kCount
      {"boundary_edges", &Counts::boundary_edges},
      {"loops", &Counts::loops},
      {"open_chains", &Counts::open_chains},
-     {"segments", &Counts::segments}}};
+     {"segments", &Counts::segments},
+     {"lines", &Counts::lines},
+     {"arcs", &Counts::arcs},
+     {"circles", &Counts::circles},
+     {"ellipses", &Counts::ellipses},
+     {"splines", &Counts::splines}}};
 
 constexpr std::array<const char*, 3> kOutcomes = {"done", "failed", "skipped"};
 
@@ -104,6 +109,10 @@ std::string to_record(const FileReport& report) {
   record["runs"] = std::move(runs);
   record["peak_memory"] = report.peak_memory;
   record["worker"] = report.worker;
+  record["deviation"] = report.deviation;
+  record["warnings"] = report.warnings;
+  record["findings"] = report.findings;
+  record["preview"] = {report.preview.picture, report.preview.model, report.preview.model_size};
   return detail::dumped(record);
 }
 
@@ -124,6 +133,11 @@ FileReport from_record(std::string_view text) try {
   }
   report.peak_memory = record.at("peak_memory");
   report.worker = record.at("worker");
+  report.deviation = record.at("deviation");
+  report.warnings = record.at("warnings");
+  report.findings = record.at("findings");
+  const Json& preview = record.at("preview");
+  report.preview = {preview.at(0), preview.at(1), preview.at(2)};
   return report;
 } catch (const Json::exception& fault) {
   throw Error(ErrorCode::BadData, std::string("not a record of a file: ") + fault.what());

@@ -9,10 +9,10 @@ namespace {
 using Writer = void (*)(std::span<const FileReport>, const Machine&, std::int64_t, Sink&);
 
 // In the order of ReportFormat.
-constexpr std::array<std::string_view, 5> kNames = {"json", "gbench", "junit", "gha", "trace"};
-constexpr std::array<Writer, 5> kWriters = {detail::write_json_report, detail::write_gbench_report,
+constexpr std::array<std::string_view, 6> kNames = {"json", "gbench", "junit", "gha", "trace", "html"};
+constexpr std::array<Writer, 6> kWriters = {detail::write_json_report, detail::write_gbench_report,
                                             detail::write_junit_report, detail::write_gha_report,
-                                            detail::write_trace_report};
+                                            detail::write_trace_report, detail::write_html_report};
 
 }  // namespace
 

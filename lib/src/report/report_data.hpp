@@ -47,6 +47,8 @@ void write_junit_report(std::span<const FileReport> files, const Machine& machin
                         Sink& sink);
 void write_gha_report(std::span<const FileReport> files, const Machine& machine, std::int64_t time,
                       Sink& sink);
+void write_html_report(std::span<const FileReport> files, const Machine& machine, std::int64_t time,
+                       Sink& sink);
 void write_trace_report(std::span<const FileReport> files, const Machine& machine, std::int64_t time,
                         Sink& sink);
 

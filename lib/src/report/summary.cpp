@@ -81,32 +81,22 @@ std::string loop_lengths(const PatchBoundary& patch) {
 }
 
 // "2 lines, 2 arcs"
-class KindCount {
- public:
-  void add(const Contour& contour) {
-    for (const Segment& segment : contour.segments) {
-      const auto* arc = std::get_if<CircularArc>(&segment.curve);
-      ++counts_[arc != nullptr && arc->full() ? 4 : segment.curve.index()];
-    }
+std::string kinds_text(const Counts& counts) {
+  struct Kind {
+    std::uint64_t count;
+    std::string_view singular, many;
+  };
+  const std::array<Kind, 5> kinds = {{{counts.lines, "line", "lines"},
+                                      {counts.arcs, "arc", "arcs"},
+                                      {counts.circles, "circle", "circles"},
+                                      {counts.ellipses, "ellipse", "ellipses"},
+                                      {counts.splines, "spline", "splines"}}};
+  std::string out;
+  for (const auto& [count, singular, many] : kinds) {
+    if (count > 0) out += (out.empty() ? "" : ", ") + plural(count, singular, many);
   }
-
-  std::string text() const {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 5> names = {{{"line", "lines"},
-                                                                                     {"arc", "arcs"},
-                                                                                     {"ellipse", "ellipses"},
-                                                                                     {"spline", "splines"},
-                                                                                     {"circle", "circles"}}};
-    std::string out;
-    for (const std::size_t kind : {0u, 1u, 4u, 2u, 3u}) {
-      if (counts_[kind] == 0) continue;
-      out += (out.empty() ? "" : ", ") + plural(counts_[kind], names[kind].first, names[kind].second);
-    }
-    return out;
-  }
-
- private:
-  std::array<std::uint64_t, 5> counts_ = {};
-};
+  return out;
+}
 
 std::string patch_table(const Model& model, std::span<const ShellBoundary> boundaries,
                         std::span<const Contour> contours) {
@@ -119,11 +109,11 @@ std::string patch_table(const Model& model, std::span<const ShellBoundary> bound
     const Shell& shell = model.shells[s];
     for (std::size_t p = 0; p < boundaries[s].patches.size(); ++p) {
       const PatchBoundary& patch = boundaries[s].patches[p];
-      KindCount kinds;
+      Counts kinds;
       for (; contour != contours.end() && contour->shell == s && contour->patch == p; ++contour)
-        kinds.add(*contour);
+        count_kinds(*contour, kinds);
       table.add({printable(shell.id, 24), number(p + 1), number(shell.patches[p].triangle_count),
-                 number(patch.edges.size()), number(patch.loops.size()), loop_lengths(patch), kinds.text()});
+                 number(patch.edges.size()), number(patch.loops.size()), loop_lengths(patch), kinds_text(kinds)});
     }
   }
   return table.text();
@@ -202,9 +192,7 @@ std::string summary(const Model& model, std::span<const ShellBoundary> boundarie
         fmt::format("\n{}", brief ? loop_distribution(boundaries) : patch_table(model, boundaries, contours));
     const std::string found = brief ? findings(model, boundaries) : std::string();
     if (!found.empty()) out += fmt::format("\n{}", found);
-    KindCount kinds;
-    for (const Contour& contour : contours) kinds.add(contour);
-    if (const std::string text = kinds.text(); !text.empty()) out += fmt::format("\ncurves: {}\n", text);
+    if (const std::string text = kinds_text(counts); !text.empty()) out += fmt::format("\ncurves: {}\n", text);
   }
   if (!simplifications.empty()) out += fmt::format("\n{}", simplification_line(simplifications));
   if (!timings.empty()) out += fmt::format("\n{}", stage_table(timings));
