@@ -55,7 +55,9 @@ def check_table(page):
     require(names[0].startswith("a'\"><img src=x onerror="), f"the hostile name became {names[0]}")
     require(page.run("document.querySelectorAll('img:not([src^=\"data:image/png;base64,\"])').length") == 0, "foreign markup")
     require(page.run("document.querySelectorAll('.picture img').length") == 4, "not every file has a picture")
-    require(page.run("[...document.images].every(i => i.naturalWidth === 320 && i.naturalHeight === 240)"), "broken pictures")
+    sizes = page.run("Promise.all([...document.images].map(async i => { i.loading = 'eager'; await i.decode(); "
+                     "return [i.naturalWidth, i.naturalHeight]; }))")
+    require(sizes == 4 * [[320, 240]], f"pictures of {sizes}")
     require(choose(page, "filter-text", "BOTT") == ["bottle.swp"], "the filter by name")
     require(page.run("document.getElementById('shown').textContent") == "1 of 5 files shown", "the count")
     choose(page, "filter-text", "")
