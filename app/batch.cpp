@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
-#include <limits>
 #include <map>
 #include <set>
 #include <thread>
@@ -13,6 +12,7 @@
 #include "inputs.hpp"
 #include "journal.hpp"
 #include "meshcontour/output.hpp"
+#include "model_limit.hpp"
 #include "outcome.hpp"
 #include "progress.hpp"
 #include "worker_pool.hpp"
@@ -56,28 +56,6 @@ Outcome lost_outcome(const FileJob& job, const TaskResult& result, const Command
   }
   return outcome;
 }
-
-// Keeps the models of a page within its limit: those of the first inputs, in whatever order they come.
-class ModelLimit {
- public:
-  void apply(std::vector<FileReport>& reports, std::size_t job) {
-    if (reports[job].preview.model.empty()) return;
-    kept_.insert(job);
-    total_ += reports[job].preview.model_size;
-    while (!kept_.empty() && (total_ > kLargestPageModels || *kept_.rbegin() >= first_left_out_)) {
-      const std::size_t last = *kept_.rbegin();
-      first_left_out_ = std::min(first_left_out_, last);
-      total_ -= reports[last].preview.model_size;
-      reports[last].preview.model = std::string();
-      kept_.erase(last);
-    }
-  }
-
- private:
-  std::set<std::size_t> kept_;
-  std::uint64_t total_ = 0;
-  std::size_t first_left_out_ = std::numeric_limits<std::size_t>::max();
-};
 
 // Takes outcomes as they come, prints them in the order of the inputs and keeps their reports.
 class Collector {

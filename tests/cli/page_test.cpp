@@ -1,3 +1,6 @@
+#include <random>
+
+#include "model_limit.hpp"
 #include "support/catch.hpp"
 #include "support/run_program.hpp"
 
@@ -76,6 +79,28 @@ TEST_CASE("page: without a rasterizer it comes without pictures", "[cli][page]")
   CHECK(result.code == 0);
   const std::string html = file_text(folder / "page.html");
   CHECK_THAT(html, !Contains("<img") && Contains("the page has no picture") && Contains("\">Z2xURgIAAA"));
+}
+
+TEST_CASE("page: the models of the first inputs are kept, in whatever order the workers finish", "[cli][page]") {
+  using meshcontour::FileReport;
+  constexpr std::size_t kSize = meshcontour::kLargestPageModels / 10;
+  std::vector<std::size_t> order(30);
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::mt19937 random(7);
+  for (int repetition = 0; repetition < 20; ++repetition) {
+    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+    std::vector<FileReport> reports(order.size());
+    meshcontour::app::ModelLimit limit;
+    for (const std::size_t job : order) {
+      reports[job].preview = {"", "model", job % 3 == 0 ? 3 * kSize / 2 : kSize};
+      limit.apply(reports, job);
+    }
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+      INFO(i);
+      // 1.5 + 1 + 1 tenths three times are 10.5 tenths: one input fewer fits.
+      CHECK(reports[i].preview.model.empty() == (i > 7));
+    }
+  }
 }
 
 TEST_CASE("page: one that cannot be written is found before the work", "[cli][page]") {

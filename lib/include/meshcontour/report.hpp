@@ -95,7 +95,7 @@ struct Preview {
 };
 
 /// Bytes of a GLB that a page still takes, and of all those on a page.
-inline constexpr std::uint64_t kLargestPreviewModel = 4'000'000, kLargestPageModels = 64'000'000;
+inline constexpr std::uint64_t kLargestPreviewModel = 3'000'000, kLargestPageModels = 32'000'000;
 
 /// What became of one input of a run.
 struct FileReport {

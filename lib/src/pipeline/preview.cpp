@@ -41,10 +41,12 @@ Preview make_preview(const Job& job, Run& run) {
   preview.picture = picture(job, run);
   preview.model_size = least_glb_size(run.model);
   if (preview.model_size > kLargestPreviewModel) return preview;
+  WriteOptions options = job.write;
+  options.edges = EdgeUse::Unique;
   StringSink glb;
   std::vector<Diagnostic> notes;
   try {
-    write_output(OutputFormat::Glb, {run.model, run.boundaries, run.contours}, job.write, glb, notes);
+    write_output(OutputFormat::Glb, {run.model, run.boundaries, run.contours}, options, glb, notes);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::BadData) throw;
     run.diagnostics.push_back(
