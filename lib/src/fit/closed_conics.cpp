@@ -7,6 +7,7 @@
 #include <span>
 
 #include "fit/arc_fit.hpp"
+#include "fit/closed_conic_fit.hpp"
 #include "fit/ellipse_fit.hpp"
 
 namespace meshcontour::detail {
@@ -54,13 +55,8 @@ Ring ring_of(const Shell& shell, const BoundaryLoop& loop, std::span<const Chain
 std::optional<ClosedConic> fit_ring(const Ring& ring) {
   for (const double share : kRungs) {
     const double eps = std::max(share * ring.tolerance, ring.noise);
-    if (const std::optional<ArcFit> circle = fit_circle(ring.points, eps)) {
-      return ClosedConic{0, 0, circle->arc, circle->residual};
-    }
-    if (ring.points.size() < kEllipsePoints) continue;
-    if (const std::optional<EllipseFit> ellipse = fit_ellipse(ring.points, true, eps)) {
-      return ClosedConic{0, 0, ellipse->arc, ellipse->residual};
-    }
+    const auto conic = fit_closed_conic(ring.points, eps, ring.tolerance, kEllipsePoints);
+    if (conic) return ClosedConic{0, 0, conic->curve, conic->residual};
   }
   return std::nullopt;
 }

@@ -6,8 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "fit/arc_fit.hpp"
-#include "fit/ellipse_fit.hpp"
+#include "fit/closed_conic_fit.hpp"
 #include "fit/evidence.hpp"
 #include "fit/free_form.hpp"
 #include "fit/small_arcs.hpp"
@@ -145,16 +144,10 @@ class Recognizer {
     if (!options_.primitives || path_.chords() < 5) return std::nullopt;
     const std::span<const Point> points = path_.run(0, path_.chords() - 1);
     Piece piece{0, path_.chords(), LineSegment{}, 0, true};
-    if (const std::optional<ArcFit> circle = fit_circle(points, eps)) {
-      piece.curve = circle->arc;
-      piece.residual = circle->residual;
-    } else {
-      if (points.size() < kEllipsePoints) return std::nullopt;
-      const std::optional<EllipseFit> ellipse = fit_ellipse(points, true, eps);
-      if (!ellipse) return std::nullopt;
-      piece.curve = ellipse->arc;
-      piece.residual = ellipse->residual;
-    }
+    const std::optional<ConicFit> conic = fit_closed_conic(points, eps, options_.tolerance, kEllipsePoints);
+    if (!conic) return std::nullopt;
+    piece.curve = conic->curve;
+    piece.residual = conic->residual;
     return made({piece});
   }
 

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <random>
 
+#include "fit/closed_conic_fit.hpp"
 #include "support/catch.hpp"
 
 using namespace meshcontour;
@@ -103,4 +104,19 @@ TEST_CASE("ellipse_deviation: it bounds what is measured, and is tight", "[fit]"
   const double bound = ellipse_deviation(arc, points, 0);
   CHECK(bound >= measured);
   if (ratio == 1.0) CHECK(bound < 1.01 * measured);
+}
+
+TEST_CASE("fit_closed_conic: a circle whose coordinates were rounded is no ellipse", "[fit]") {
+  const double ratio = GENERATE(1.0, 0.99);
+  EllipticalArc truth = tilted_ellipse(ratio);
+  auto points = on_ellipse(truth, 0, 2 * kPi, 18);
+  points.pop_back();
+  const double scatter = 5e-5 * truth.major.norm();
+  for (Point& p : points) p = (p / scatter).array().round() * scatter;
+  // The limit is less than the points are off, as where it was guessed from better ones.
+  for (const double limit : {0.3, 0.5, 0.8, 1.5}) {
+    const auto conic = fit_closed_conic(points, limit * scatter, 20 * scatter, 9);
+    if (conic) CHECK(std::holds_alternative<CircularArc>(conic->curve) == (ratio == 1.0));
+    if (limit == 1.5) CHECK(conic);
+  }
 }
