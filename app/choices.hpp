@@ -20,14 +20,16 @@ namespace meshcontour::app {
 template <class T, std::size_t N>
 using Choices = std::array<std::pair<std::string_view, T>, N>;
 
-inline constexpr Choices<Layer, 8> kLayers = {{{"mesh", Layer::Mesh},
+inline constexpr Choices<Layer, 10> kLayers = {{{"mesh", Layer::Mesh},
                                                {"edges", Layer::Edges},
                                                {"curves", Layer::Curves},
                                                {"wireframe", Layer::Wireframe},
                                                {"points", Layer::Points},
                                                {"control", Layer::Control},
                                                {"frames", Layer::Frames},
-                                               {"annotations", Layer::Annotations}}};
+                                               {"annotations", Layer::Annotations},
+                                               {"tree", Layer::Tree},
+                                               {"path", Layer::Path}}};
 inline constexpr Choices<View, 8> kViews = {{{"iso", View::Iso},
                                              {"front", View::Front},
                                              {"back", View::Back},
@@ -63,8 +65,11 @@ inline constexpr Choices<FrameMethod, 3> kFrameMethods = {{{"rmf", FrameMethod::
                                                            {"frenet", FrameMethod::Frenet}}};
 inline constexpr Choices<CsvContent, 2> kCsvContents = {
     {{"loops", CsvContent::Loops}, {"curves", CsvContent::Curves}}};
-inline constexpr Choices<ObjContent, 2> kObjContents = {
-    {{"polylines", ObjContent::Polylines}, {"curves", ObjContent::Curves}}};
+inline constexpr Choices<ObjContent, 4> kObjContents = {{{"polylines", ObjContent::Polylines},
+                                                         {"curves", ObjContent::Curves},
+                                                         {"tree", ObjContent::Tree},
+                                                         {"path", ObjContent::Path}}};
+inline constexpr Choices<WrlContent, 2> kWrlContents = {{{"tree", WrlContent::Tree}, {"path", WrlContent::Path}}};
 inline constexpr Choices<DxfContent, 2> kDxfContents = {
     {{"curves", DxfContent::Curves}, {"polyline", DxfContent::Polyline}}};
 inline constexpr Choices<StepSchema, 2> kStepSchemas = {

@@ -18,7 +18,7 @@ namespace meshcontour::app {
 namespace {
 
 constexpr const char* kFooter = R"(The kind of an output follows its extension: .png .csv .obj .step
-.dxf .svg .json .glb .html
+.dxf .svg .json .glb .wrl .html
 With several inputs use {stem}, {dir} and {n} in the names of the outputs; an
 .html without them is one page of all inputs.
 Angles are in degrees, lengths in the unit of the model.
@@ -49,7 +49,7 @@ void add_output_options(Group group, CommandLine& line) {
   group.add_flag("--timings", line.job.timings_in_json,
                  "List these times in .json outputs too, whose bytes then differ from run to run");
   const auto add_mesh = [&line](const std::string& path) { line.meshes.push_back(path); };
-  group.add_each("--save-mesh", "FILE", add_mesh, "Write the mesh, repeatable: .off, .obj, .stl, .ply");
+  group.add_each("--save-mesh", "FILE", add_mesh, "Write the mesh, repeatable: .off, .obj, .stl, .ply, .net");
   const auto add_wavelet = [&line](const std::string& path) { line.wavelets.push_back(path); };
   group.add_each("--save-wavelet", "FILE", add_wavelet,
                  "Write a progressive wavelet stream (.mcw), repeatable; it can be read back, whole or in part");
@@ -63,8 +63,12 @@ void add_output_options(Group group, CommandLine& line) {
       ->default_str(fmt::format("{}", line.job.wavelet.precision));
   group.add_action(
       "--mesh-text", [&line] { line.job.mesh.binary = false; }, "Text instead of binary .stl and .ply");
+  group.add_action(
+      "--mesh-plain", [&line] { line.job.mesh.patches = false; }, "Triangles only, no patches or colours");
+  group.add_flag("--net-float", line.job.mesh.single_precision, "Numbers of a .net in single precision");
   group.add_choice("--csv-of", line.job.write.csv, kCsvContents, "Rows of a .csv");
   group.add_choice("--obj", line.job.write.obj, kObjContents, "Contents of an .obj");
+  group.add_choice("--wrl", line.job.write.wrl, kWrlContents, "Lines of a .wrl");
   group.add_choice("--dxf", line.job.write.dxf, kDxfContents, "Entities of a .dxf");
   group.add_choice("--step", line.job.write.step, kStepSchemas, "Schema of a .step");
   group.add_choice("--edges", line.job.write.edges, kEdgeUses,
@@ -91,11 +95,21 @@ void add_model_options(Group group, CommandLine& line) {
   group.add_choice("--simplify-method", job.simplify.method, kSimplifyMethods, "How");
   group.add_choice("--frames", job.read.sweep.frames, kFrameMethods, "Frames along the curves of .swp files");
   group.add_flag("--caps", job.read.sweep.caps, "Close the open ends of swept surfaces");
+  group.add_flag("--net-normalise", job.read.net.normalise, "Centre a .net and scale it to 6");
+  group.add_flag("--strict-net", job.read.net.strict, "Points of a .net have 3 to 16 edges, or it is refused");
   const auto parse_patches = [&line](const std::string& text) {
     line.job.selection.patches = parse_ranges(text, "--patches");
   };
   group.add_parsed("--patches", "RANGES", parse_patches, "Only these patches, as in 4,7-9; numbered from 1");
   group.add_text("--shell", line.job.selection.shell, "ID", "Only this shell");
+  const auto add_end = [&](const std::string& name, std::optional<Index>& end, const std::string& help) {
+    const auto parse = [&end, name](const std::string& text) {
+      end = static_cast<Index>(parse_count(text, name, std::numeric_limits<Index>::max()));
+    };
+    group.add_parsed(name, "VERTEX", parse, help);
+  };
+  add_end("--path-from", line.job.path_from, "Where the shortest path along edges begins; vertices as in tables");
+  add_end("--path-to", line.job.path_to, "Where it ends; its length is a note");
   group.add_flag("--strict", line.job.read.strict,
                  "Anything that would be mended with a warning is an error");
   group.add_count("--max-triangles", line.job.read.max_triangles,
@@ -305,6 +319,7 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
   if (app.count("--background") > 0) render.background = parse_background(texts.background);
   if (render.view == View::Report) render.width = render.height = 500;
   if (app.count("--size") > 0) std::tie(render.width, render.height) = parse_size(texts.size);
+  if (line.job.path_from.has_value() != line.job.path_to.has_value()) usage("a path needs --path-from and --path-to");
   if (line.repeat == 0) refuse("--repeat", "0", "at least 1");
   set_threads(line.job, line.threads);
   line.job.write.view = render.view;
@@ -339,7 +354,7 @@ FileJob make_job(const CommandLine& command_line, const std::string& input, std:
   for (const std::string& mesh : command_line.meshes) {
     const std::string path = output_path(mesh, input, number, several);
     const auto known = mesh_format(extension(path));
-    if (!known) refuse("--save-mesh", path, "a name that ends with .off, .obj, .stl or .ply");
+    if (!known) refuse("--save-mesh", path, "a name that ends with .off, .obj, .stl, .ply or .net");
     job.meshes.push_back({path, *known});
   }
   for (const std::string& wavelet : command_line.wavelets) {

@@ -27,6 +27,15 @@ EdgePaths minimum_spanning_tree(const Shell& shell, std::size_t patch);
 /// @throws Error  Usage if no triangle uses one of the vertices, or no edges join them.
 EdgePaths shortest_path(const Shell& shell, Index from, Index to);
 
+/// Gives a model the spanning trees of all its patches, placed, as Model::tree, and notes how long they are.
+void add_trees(Model& model);
+
+/// Gives a model the shortest path between two vertices of a shell, placed, as Model::path, and notes how long it is.
+///
+/// @param shell   the id of a shell; may be empty where there is only one.
+/// @throws Error  Usage as above, or if it is not clear which shell is meant.
+void add_path(Model& model, const std::string& shell, Index from, Index to);
+
 /// The lines as they stand in every instance of the shell, in the frame of the model: for Model::annotations,
 /// which pictures and geometry files show, and for write_lines. Each gets the name given.
 std::vector<Polyline> placed_lines(const Model& model, std::size_t shell, const EdgePaths& lines,

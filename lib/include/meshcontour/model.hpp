@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +22,13 @@ struct Patch {
   std::size_t triangle_count = 0;
 };
 
+/// The faces of a file that has polygons, as they stand there; cut into fans from their first corners they give
+/// the triangles of the shell, as long as nothing changes these.
+struct Polygons {
+  std::vector<Index> sizes;    ///< corners of each, 3 or more
+  std::vector<Index> corners;  ///< of all, indices into Shell::points
+};
+
 /// Triangles that share one list of points, in a frame and unit of their own.
 struct Shell {
   std::string id;
@@ -29,6 +38,9 @@ struct Shell {
   std::vector<Patch> patches;
   std::vector<Vector> corner_normals;  ///< 3 a triangle, of length 1, or (0,0,0) where unknown; or the whole list empty
   std::vector<std::array<Index, 2>> creases;  ///< sharp edges inside a patch, sorted: drawn, but no boundary
+  std::vector<Eigen::Vector4d> point_colors;  ///< red, green, blue and alpha from 0 to 1, one a point; or empty
+  std::vector<Eigen::Vector2d> texture_coordinates;  ///< one a point; or empty
+  Polygons polygons;                                 ///< of a control mesh that has others than triangles; or empty
 
   /// The triangles of one patch.
   std::span<const Triangle> patch_triangles(std::size_t patch) const {
@@ -62,6 +74,13 @@ struct NamedCurve {
   std::vector<CurveFrame> frames;  ///< at the samples that the file asks for, along the curve; may be empty
 };
 
+/// A picture that a control mesh names; it is never opened.
+struct Texture {
+  std::string use;  ///< BaseTexture, GlossTexture or EnvTexture
+  std::string name;
+  std::uint32_t width = 0, height = 0;  ///< pixels
+};
+
 /// Everything that a file says. Shells are stored once however often they are placed.
 struct Model {
   std::string name;
@@ -71,6 +90,9 @@ struct Model {
   std::vector<Instance> instances;
   std::vector<Polyline> annotations;
   std::vector<NamedCurve> curves;
+  std::vector<Polyline> tree;     ///< spanning trees of the patches, placed; when asked for, see graph.hpp
+  std::vector<Polyline> path;     ///< the shortest path between two vertices, placed; likewise
+  std::vector<Texture> textures;  ///< one a use at most, in the order above
   std::vector<Diagnostic> diagnostics;
 };
 
@@ -81,7 +103,8 @@ Box bounding_box(const Shell& shell);
 Box bounding_box(const Model& model);
 
 /// Checks what every stage relies on: indices in range, points finite, patches a partition of the triangles,
-/// corner normals none or three a triangle, instances naming a shell.
+/// corner normals none or three a triangle, colours and texture coordinates none or one a point, instances naming
+/// a shell.
 ///
 /// @throws Error   Internal, naming the shell and what is wrong: a reader or a generator broke its promise.
 void validate(const Model& model);

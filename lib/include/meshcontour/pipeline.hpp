@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,6 +57,7 @@ struct Job {
   SimplifyOptions simplify;   ///< after that
   BoundaryOptions boundary;
   FitOptions fit;
+  std::optional<Index> path_from, path_to;  ///< ends of Model::path, vertices of the chosen shell; both or none
   RenderOptions render;
   WriteOptions write;
   MeshWriteOptions mesh;
@@ -78,7 +80,11 @@ struct Run {
 ///
 /// All outputs appear together once everything has succeeded, or none does.
 ///
-/// @throws Error  of any stage; Usage if the selection names a shell or patch that is not there.
+/// Model::tree and Model::path are made when an output shows them; the path also when only its ends are given, so that
+/// its length is told in a note.
+///
+/// @throws Error  of any stage; Usage if the selection names a shell or patch that is not there, or the ends of a path
+///                are wrong.
 Run run(const Job& job);
 
 }  // namespace meshcontour

@@ -21,6 +21,8 @@ enum class Layer {
   Control,      ///< control polygons, control points and knots of the fitted contours
   Frames,       ///< along the model's own curves: normal red, binormal green, tangent blue
   Annotations,  ///< line drawings that come with the model
+  Tree,         ///< Model::tree: spanning trees of the patches
+  Path,         ///< Model::path: the shortest path between two vertices
 };
 
 /// From where the model is seen, with Z up. Front looks along +Y with X to the right, right looks along -X with
@@ -35,7 +37,7 @@ enum class UpAxis { X, Y, Z };
 
 /// What a colour tells.
 enum class ColorBy {
-  File,   ///< the colours of the file; edges and curves in one colour a layer
+  File,   ///< the colours of the file, of points where it has them; edges and curves in one colour a layer
   Patch,  ///< one colour a patch, from a palette that repeats after 21
   Layer,  ///< one colour a layer
   Type,   ///< one colour a kind of segment: line, arc, circle, ellipse, spline; the rest grey

@@ -27,7 +27,8 @@ struct SubdivisionOptions {
 std::vector<double> butterfly_weights(std::size_t valence);
 
 /// The shell after `levels` steps of modified butterfly subdivision: every triangle becomes four a step, old points
-/// stay where they are and keep their numbers. Patches, colours and corner normals are inherited.
+/// stay where they are and keep their numbers. Patches, colours and corner normals are inherited; what points carry
+/// is the mean of both ends at new ones.
 ///
 /// Border curves depend on border points alone; with `creases` so do the borders between patches.
 ///

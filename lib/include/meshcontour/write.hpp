@@ -27,7 +27,7 @@ struct Result {
 };
 
 /// The kinds of output. A picture is drawn (render.hpp); write_output writes all others.
-enum class OutputFormat { Png, Csv, Obj, Step, Dxf, Svg, Json, Glb };
+enum class OutputFormat { Png, Csv, Obj, Step, Dxf, Svg, Json, Glb, Wrl };
 
 /// The format of a name or extension, in any case, with or without dot: "csv", ".STEP", "stp".
 std::optional<OutputFormat> output_format(std::string_view name);
@@ -36,7 +36,13 @@ std::optional<OutputFormat> output_format(std::string_view name);
 std::span<const std::string_view> output_format_names();
 
 enum class CsvContent { Loops, Curves };
-enum class ObjContent { Polylines, Curves };
+enum class ObjContent {
+  Polylines,  ///< loops
+  Curves,     ///< fitted loops
+  Tree,       ///< Model::tree
+  Path,       ///< Model::path
+};
+enum class WrlContent { Tree, Path };
 enum class DxfContent {
   Curves,    ///< LINE, ARC, CIRCLE, ELLIPSE and SPLINE
   Polyline,  ///< one polyline a loop: flat loops as LWPOLYLINE, arcs as bulges; others as 3D POLYLINE
@@ -50,6 +56,7 @@ enum class EdgeUse {
 struct WriteOptions {
   CsvContent csv = CsvContent::Loops;
   ObjContent obj = ObjContent::Polylines;
+  WrlContent wrl = WrlContent::Tree;
   DxfContent dxf = DxfContent::Curves;
   StepSchema step = StepSchema::Ap242;
   EdgeUse edges = EdgeUse::All;
@@ -79,6 +86,7 @@ std::optional<std::int64_t> source_date_epoch();
 /// - Obj: an object a loop, `shell_ID_patch_P_loop_L`, with `_instance_N` where the shell occurs more than
 /// once; as
 ///   polylines through the vertices, or as clamped (rational) B-spline curves, one a segment.
+///   The tree and the path are polylines along edges. Wrl: VRML 2.0 line sets of these.
 /// - Step: one geometric curve set a patch, one (composite) curve a loop. Dxf: one layer a patch, one group a
 /// loop.
 ///   Svg: one group a patch, one path a loop, seen from `view` without perspective.

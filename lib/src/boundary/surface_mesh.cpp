@@ -80,16 +80,15 @@ class Builder {
   }
 
   // A vertex has one fan, so one border halfedge comes in and one goes out; the one that comes in becomes its
-  // own.
+  // own, so that border tests need not walk round.
   void link_border() {
     for (std::size_t side = 0; side < halfedges_.size(); ++side) {
       if (held_.opposite[side] != detail::kNoSide) continue;
       const Halfedge border = mesh_.opposite(halfedges_[side]);
-      const Vertex end = mesh_.target(border);
       mesh_.set_face(border, SurfaceMesh::null_face());
-      mesh_.set_next(border, border_out_[end]);
-      mesh_.set_halfedge(end, border);
+      mesh_.set_next(border, border_out_[mesh_.target(border)]);
     }
+    mesh_.set_vertex_halfedge_to_border_halfedge();
   }
 
   const detail::HeldTriangles& held_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "graph/edge_graph.hpp"
 
@@ -88,6 +89,10 @@ EdgePaths minimum_spanning_tree(const Shell& shell, std::size_t patch) {
 
 EdgePaths shortest_path(const Shell& shell, Index from, Index to) {
   for (const Index end : {from, to}) {
+    if (end >= shell.points.size()) {
+      throw Error(ErrorCode::Usage,
+                  fmt::format("there is no vertex {}: the shell has {}, numbered from 0", end, shell.points.size()));
+    }
     const auto uses = [&](const Triangle& t) { return std::ranges::find(t, end) != t.end(); };
     if (std::ranges::none_of(shell.triangles, uses)) {
       throw Error(ErrorCode::Usage, fmt::format("no triangle uses vertex {}", end));
@@ -117,6 +122,58 @@ std::vector<Polyline> placed_lines(const Model& model, std::size_t shell, const 
     }
   }
   return result;
+}
+
+namespace {
+
+void note_length(Model& model, const std::string& what, double length) {
+  model.diagnostics.push_back(
+      {Diagnostic::Severity::Note, fmt::format("{}, length {:.9g}", what, length), {}, 1});
+}
+
+void append(std::vector<Polyline>& lines, std::vector<Polyline> more) {
+  lines.insert(lines.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+std::size_t chosen_shell(const Model& model, const std::string& id) {
+  if (id.empty() && model.shells.size() == 1) return 0;
+  if (id.empty()) {
+    throw Error(ErrorCode::Usage, fmt::format("a path needs --shell ID: the model has {} shells, each with vertices "
+                                              "of its own",
+                                              model.shells.size()));
+  }
+  const auto found = std::ranges::find(model.shells, id, &Shell::id);
+  if (found == model.shells.end()) {
+    throw Error(ErrorCode::Usage, fmt::format("the model has no shell '{}'", printable(id)));
+  }
+  return static_cast<std::size_t>(found - model.shells.begin());
+}
+
+}  // namespace
+
+void add_trees(Model& model) {
+  double length = 0;
+  std::size_t patches = 0;
+  for (std::size_t s = 0; s < model.shells.size(); ++s) {
+    const Shell& shell = model.shells[s];
+    for (std::size_t p = 0; p < shell.patches.size(); ++p) {
+      if (shell.patches[p].triangle_count == 0) continue;
+      const EdgePaths tree = minimum_spanning_tree(shell, p);
+      append(model.tree, placed_lines(model, s, tree, fmt::format("shell_{}_patch_{}_tree", shell.id, p + 1)));
+      length += tree.length;
+      ++patches;
+    }
+  }
+  note_length(model, fmt::format("spanning trees of {} patches", patches), length);
+}
+
+void add_path(Model& model, const std::string& id, Index from, Index to) {
+  const std::size_t s = chosen_shell(model, id);
+  const EdgePaths path = shortest_path(model.shells[s], from, to);
+  const std::string name = fmt::format("shell_{}_path_{}_{}", model.shells[s].id, from, to);
+  append(model.path, placed_lines(model, s, path, name));
+  const std::size_t edges = path.paths.empty() ? 0 : path.paths[0].size() - 1;
+  note_length(model, fmt::format("path from vertex {} to {}: {} edges", from, to, edges), path.length);
 }
 
 }  // namespace meshcontour

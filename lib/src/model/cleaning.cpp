@@ -7,6 +7,7 @@
 #include "model/adjacency.hpp"
 #include "model/fans.hpp"
 #include "model/orientation.hpp"
+#include "model/point_attributes.hpp"
 
 namespace meshcontour {
 namespace {
@@ -133,9 +134,11 @@ std::size_t drop_unused_points(Shell& shell) {
   for (std::size_t v = 0; v < used.size(); ++v) {
     number[v] = kept;
     if (used[v] == 0) continue;
-    shell.points[kept++] = Point(shell.points[v]);
+    shell.points[kept] = Point(shell.points[v]);
+    detail::copy_point_attributes(shell, v, kept++);
   }
   shell.points.resize(kept);
+  detail::resize_point_attributes(shell);
   for (Triangle& t : shell.triangles) t = {number[t[0]], number[t[1]], number[t[2]]};
   return used.size() - kept;
 }

@@ -4,6 +4,7 @@
 
 #include "meshcontour/error.hpp"
 #include "meshcontour/parallel.hpp"
+#include "model/point_attributes.hpp"
 
 namespace meshcontour::detail {
 namespace {
@@ -91,6 +92,8 @@ std::size_t split_fans(Shell& shell, const Adjacency& adjacency) {
         throw Error(ErrorCode::OutOfMemory, "too many points to cut apart");
       copy = static_cast<Index>(shell.points.size());
       shell.points.push_back(Point(shell.points[point]));
+      resize_point_attributes(shell);
+      copy_point_attributes(shell, point, copy);
     }
     taken[point] = 1;
     const auto assign = [&](Index at) {

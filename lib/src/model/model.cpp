@@ -19,6 +19,10 @@ void validate(const Shell& shell) {
   require(std::ranges::all_of(shell.points, finite), shell, "a point is not finite");
   require(shell.corner_normals.empty() || shell.corner_normals.size() == 3 * shell.triangles.size(), shell,
           "the corner normals are not three a triangle");
+  require(shell.point_colors.empty() || shell.point_colors.size() == shell.points.size(), shell,
+          "the colours are not one a point");
+  require(shell.texture_coordinates.empty() || shell.texture_coordinates.size() == shell.points.size(), shell,
+          "the texture coordinates are not one a point");
   std::size_t next = 0;
   for (const Patch& patch : shell.patches) {
     require(patch.first_triangle == next, shell, "the patches are not a partition of the triangles");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/point_attributes.hpp"
 #include "model/point_numbering.hpp"
 
 namespace meshcontour {
@@ -104,6 +105,12 @@ std::size_t weld_points(Shell& shell, double tolerance) {
   const std::size_t before = shell.points.size();
   const bool exact = tolerance == 0 || largest_coordinate(shell.points) / tolerance > kMostCells;
   const std::vector<Index> numbers = exact ? weld_equal(shell.points) : weld_near(shell.points, tolerance);
+  // Numbers are given by first appearance, so that an attribute moves down only, and its place was read before.
+  Index kept = 0;
+  for (std::size_t v = 0; v < before; ++v) {
+    if (numbers[v] == kept) detail::copy_point_attributes(shell, v, kept++);
+  }
+  detail::resize_point_attributes(shell);
   for (Triangle& t : shell.triangles) t = {numbers[t[0]], numbers[t[1]], numbers[t[2]]};
   for (auto& [from, to] : shell.creases) from = numbers[from], to = numbers[to];
   return before - shell.points.size();

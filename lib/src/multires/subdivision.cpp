@@ -32,11 +32,23 @@ std::vector<Vector> refined_normals(const std::vector<Vector>& normals) {
   return out;
 }
 
+// A value a point, the new points half way between the ends of their edges.
+template <typename Value>
+void refine(const MeshLevel& level, std::vector<Value>& values) {
+  if (values.empty()) return;
+  values.reserve(values.size() + level.edge_count());
+  for (const Index h : level.first_halfedge) {
+    const Value middle = 0.5 * (values[level.start(h)] + values[level.end(h)]);
+    values.push_back(middle);
+  }
+}
+
 }  // namespace
 
 Shell subdivided(const Shell& shell, unsigned levels, const SubdivisionOptions& options) {
   Shell fine = shell;
   if (levels == 0) return fine;
+  fine.polygons = {};
   MeshLevel level = level_of(shell, options.creases);
   for (unsigned step = 0; step < levels; ++step) {
     if (fine.points.size() + level.edge_count() > std::numeric_limits<Index>::max() / 6) {
@@ -45,6 +57,8 @@ Shell subdivided(const Shell& shell, unsigned levels, const SubdivisionOptions& 
     }
     fine.points.resize(level.vertex_count + level.edge_count(), Point::Zero());
     detail::add_prediction(level, options, 1, fine.points);
+    refine(level, fine.point_colors);
+    refine(level, fine.texture_coordinates);
     level = detail::quadrisected(level);
     fine.corner_normals = refined_normals(fine.corner_normals);
     for (Patch& patch : fine.patches) {

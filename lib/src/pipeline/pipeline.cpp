@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "meshcontour/cleaning.hpp"
+#include "meshcontour/graph.hpp"
 #include "meshcontour/output.hpp"
 #include "pipeline/preview.hpp"
 #include "pipeline/selection.hpp"
@@ -72,7 +73,9 @@ void name_file(const Job& job, Run& run) {
 
 void prepare_model(const Job& job, Targets& targets, Run& run) {
   run.timings.measure("read", [&] {
-    run.model = read_model(input_name(job), job.read);
+    ReadOptions options = job.read;
+    options.net.mend = options.net.mend || job.repair;
+    run.model = read_model(input_name(job), options);
     if (job.repair) repair_model(run.model, job.segment.threads);
   });
   run.timings.count("read", counts_of(run.model, {}, {}).triangles);
@@ -85,6 +88,7 @@ void prepare_model(const Job& job, Targets& targets, Run& run) {
       for (Shell& shell : run.model.shells) shell = subdivided(shell, job.subdivisions, job.subdivide);
     });
   }
+  find_lines(job, run);
   const Counts counts = counts_of(run.model, {}, {});
   run.timings.count("segment", counts.patches);
   if (job.subdivisions > 0) run.timings.count("subdivide", counts.triangles);
@@ -98,6 +102,28 @@ void prepare_model(const Job& job, Targets& targets, Run& run) {
     detail::report_simplifications(job.simplify, run.simplifications, run.model);
   }
   run.diagnostics = std::move(run.model.diagnostics);
+}
+
+bool shown(const Job& job, Layer layer, ObjContent obj, WrlContent wrl) {
+  return std::ranges::any_of(job.outputs, [&](const OutputRequest& output) {
+    return (output.format == OutputFormat::Png && std::ranges::find(job.render.layers, layer) != job.render.layers.end()) ||
+           (output.format == OutputFormat::Obj && job.write.obj == obj) ||
+           (output.format == OutputFormat::Wrl && job.write.wrl == wrl);
+  });
+}
+
+void find_lines(const Job& job, Run& run) {
+  const bool tree = shown(job, Layer::Tree, ObjContent::Tree, WrlContent::Tree);
+  const bool has_ends = job.path_from && job.path_to;
+  if (!has_ends && (job.path_from || job.path_to || shown(job, Layer::Path, ObjContent::Path, WrlContent::Path))) {
+    throw Error(ErrorCode::Usage, "a path needs --path-from and --path-to");
+  }
+  if (!tree && !has_ends) return;
+  run.timings.measure("lines", [&] {
+    if (tree) add_trees(run.model);
+    if (has_ends) add_path(run.model, job.selection.shell, *job.path_from, *job.path_to);
+  });
+  run.timings.count("lines", run.model.tree.size() + run.model.path.size());
 }
 
 void find_contours(const Job& job, Run& run) {

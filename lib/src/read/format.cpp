@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "read/net.hpp"
 #include "read/obj.hpp"
 #include "read/off.hpp"
 #include "read/ply.hpp"
@@ -75,6 +76,7 @@ std::span<const Format> formats() {
       {"OFF", {"off"}, sniff_off, read_off},
       {"OBJ", {"obj"}, sniff_obj, read_obj},
       {"wavelet stream", {"mcw"}, sniff_wavelet, read_wavelet},
+      {"control mesh", {"net"}, sniff_net, read_net},
   };
   return table;
 }

@@ -89,6 +89,8 @@ void PolygonMesh::weld() {
 
 Model PolygonMesh::finish() && {
   shell_.points = std::move(points);
+  shell_.point_colors = std::move(point_colors);
+  shell_.texture_coordinates = std::move(texture_coordinates);
   make_patches();
   weld();
   const Spot spot{context_.name, 0, 0, ""};

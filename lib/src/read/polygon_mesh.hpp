@@ -28,6 +28,8 @@ class PolygonMesh {
   std::vector<Point> points;
   std::vector<Vector> normals;  ///< that corners may name; of any length
   std::vector<Group> groups;    ///< that polygons may name
+  std::vector<Eigen::Vector4d> point_colors;         ///< one a point, or none; as in Shell
+  std::vector<Eigen::Vector2d> texture_coordinates;  ///< the same
 
   /// Adds a polygon as triangles; one with fewer than three corners is left out and counted.
   ///

@@ -29,6 +29,18 @@ Rgba face_color(const Drawing& drawing, std::size_t shell, std::size_t patch) {
   }
 }
 
+// Whether the mesh has the colours of its points.
+bool by_points(const Drawing& drawing, const Shell& shell) {
+  return drawing.options.color_by == ColorBy::File && drawing.options.view != View::Report &&
+         !shell.point_colors.empty() && shell.point_colors.size() == shell.points.size();
+}
+
+Rgba point_color(const Shell& shell, Index point) {
+  const Eigen::Vector4d& color = shell.point_colors[point];
+  const auto channel = [&](int i) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(color[i], 0., 1.))); };
+  return {channel(0), channel(1), channel(2), 255};
+}
+
 Vertex lit_vertex(const LocalFrame& frame, const Point& p, const Eigen::Vector3f& normal, const Rgba& color) {
   const Eigen::Vector3f local = frame.local(p);
   const auto fixed = [&](int i) {
@@ -40,15 +52,17 @@ Vertex lit_vertex(const LocalFrame& frame, const Point& p, const Eigen::Vector3f
 void fill_triangles(const Drawing& drawing, std::size_t s, Vertex* corners) {
   const Shell& shell = drawing.model.shells[s];
   const auto normals = lighting_normals(shell, drawing.options.threads);
+  const bool colored_points = by_points(drawing, shell);
   for (std::size_t p = 0; p < shell.patches.size(); ++p) {
-    const Rgba color = face_color(drawing, s, p);
+    const Rgba flat_color = face_color(drawing, s, p);
     const Patch& patch = shell.patches[p];
     parallel_for(patch.triangle_count, kGrain, drawing.options.threads,
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t t = patch.first_triangle + begin; t < patch.first_triangle + end; ++t) {
                      for (std::size_t c = 0; c < 3; ++c) {
-                       const Point& corner = shell.points[shell.triangles[t][c]];
-                       corners[3 * t + c] = lit_vertex(drawing.frames[s], corner, normals[3 * t + c], color);
+                       const Index v = shell.triangles[t][c];
+                       const Rgba color = colored_points ? point_color(shell, v) : flat_color;
+                       corners[3 * t + c] = lit_vertex(drawing.frames[s], shell.points[v], normals[3 * t + c], color);
                      }
                    }
                  });
@@ -151,17 +165,30 @@ void add_points(const Drawing& drawing, Scene& scene) {
   }
 }
 
-void add_annotations(const Drawing& drawing, Scene& scene) {
+// Lines in the frame of the model.
+void add_lines(const Drawing& drawing, std::span<const Polyline> lines, const Rgba& color, float width, Scene& scene) {
   const std::size_t frame = drawing.frames.size() - 1;
   std::vector<Vertex> vertices;
-  for (const Polyline& line : drawing.model.annotations) {
+  for (const Polyline& line : lines) {
     for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
       for (const std::size_t end : {i, i + 1}) {
-        vertices.push_back(flat_vertex(drawing.frames[frame], line.points[end], drawing.palette.annotations));
+        vertices.push_back(flat_vertex(drawing.frames[frame], line.points[end], color));
       }
     }
   }
-  append(scene, make_batch(drawing, Batch::Kind::Lines, frame, 1.4F), vertices);
+  append(scene, make_batch(drawing, Batch::Kind::Lines, frame, width), vertices);
+}
+
+void add_annotations(const Drawing& drawing, Scene& scene) {
+  add_lines(drawing, drawing.model.annotations, drawing.palette.annotations, 1.4F, scene);
+}
+
+void add_tree(const Drawing& drawing, Scene& scene) {
+  add_lines(drawing, drawing.model.tree, drawing.palette.tree, 1.4F, scene);
+}
+
+void add_path(const Drawing& drawing, Scene& scene) {
+  add_lines(drawing, drawing.model.path, drawing.palette.path, 2.4F, scene);
 }
 
 struct LayerRow {
@@ -169,14 +196,16 @@ struct LayerRow {
   void (*add)(const Drawing&, Scene&);
 };
 
-constexpr std::array<LayerRow, 8> kLayers = {{{Layer::Mesh, add_mesh},
+constexpr std::array<LayerRow, 10> kLayers = {{{Layer::Mesh, add_mesh},
                                               {Layer::Edges, add_edges},
                                               {Layer::Curves, add_curves},
                                               {Layer::Control, add_control},
                                               {Layer::Wireframe, add_wireframe},
                                               {Layer::Points, add_points},
                                               {Layer::Frames, add_frames},
-                                              {Layer::Annotations, add_annotations}}};
+                                              {Layer::Annotations, add_annotations},
+                                              {Layer::Tree, add_tree},
+                                              {Layer::Path, add_path}}};
 
 }  // namespace
 

@@ -9,7 +9,7 @@ Rgba mixed(const Rgba& color, const Rgba& other, double share);
 
 /// The colours of lines and points.
 struct Palette {
-  Rgba mesh, edges, curves, wireframe, points, control, knots, annotations;
+  Rgba mesh, edges, curves, wireframe, points, control, knots, annotations, tree, path;
 };
 
 /// Colours that can be told from one another and from the background.

@@ -1,5 +1,6 @@
 #include "base/text_writer.hpp"
 #include "meshcontour/mesh_write.hpp"
+#include "write/writers.hpp"
 
 namespace meshcontour {
 namespace {
@@ -20,7 +21,7 @@ void write_obj(std::span<const Polyline> lines, TextWriter& out) {
   }
 }
 
-void write_wrl(std::span<const Polyline> lines, TextWriter& out) {
+void write_line_set(std::span<const Polyline> lines, TextWriter& out) {
   out.text(
       "#VRML V2.0 utf8\nShape {\n  appearance Appearance { material Material { emissiveColor 1 0 0 } }\n"
       "  geometry IndexedLineSet {\n    coord Coordinate {\n      point [\n");
@@ -45,10 +46,15 @@ void write_lines(LineFormat format, std::span<const Polyline> lines, Sink& sink)
       write_obj(lines, out);
       break;
     case LineFormat::Wrl:
-      write_wrl(lines, out);
+      write_line_set(lines, out);
       break;
   }
   out.flush();
+}
+
+void detail::write_wrl(const Result& result, const WriteOptions& options, Sink& sink, std::vector<Diagnostic>&) {
+  const bool path = options.wrl == WrlContent::Path;
+  write_lines(LineFormat::Wrl, path ? result.model.path : result.model.tree, sink);
 }
 
 }  // namespace meshcontour

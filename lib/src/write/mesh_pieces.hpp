@@ -70,6 +70,7 @@ void write_off(const MeshPieces& mesh, Sink& sink);
 void write_obj_mesh(const MeshPieces& mesh, Sink& sink);
 void write_stl(const MeshPieces& mesh, const MeshWriteOptions& options, Sink& sink,
                std::vector<Diagnostic>& notes);
+void write_net(const MeshPieces& mesh, const Model& model, const MeshWriteOptions& options, Sink& sink);
 void write_ply(const MeshPieces& mesh, const MeshWriteOptions& options, Sink& sink);
 
 }  // namespace meshcontour::detail

@@ -13,10 +13,11 @@ namespace meshcontour {
 using namespace detail;
 
 std::optional<MeshFormat> mesh_format(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, MeshFormat>, 4> kFormats = {{{"off", MeshFormat::Off},
+  constexpr std::array<std::pair<std::string_view, MeshFormat>, 5> kFormats = {{{"off", MeshFormat::Off},
                                                                                 {"obj", MeshFormat::Obj},
                                                                                 {"stl", MeshFormat::Stl},
-                                                                                {"ply", MeshFormat::Ply}}};
+                                                                                {"ply", MeshFormat::Ply},
+                                                                                {"net", MeshFormat::Net}}};
   if (name.starts_with('.')) name.remove_prefix(1);
   std::string lower(name);
   for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -38,6 +39,8 @@ void write_mesh(MeshFormat format, const Model& model, const MeshWriteOptions& o
       return write_stl(mesh, options, sink, notes);
     case MeshFormat::Ply:
       return write_ply(mesh, options, sink);
+    case MeshFormat::Net:
+      return write_net(mesh, model, options, sink);
   }
 }
 

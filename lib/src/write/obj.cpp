@@ -1,5 +1,6 @@
 #include "base/escape.hpp"
 #include "base/text_writer.hpp"
+#include "meshcontour/mesh_write.hpp"
 #include "write/drawing.hpp"
 #include "write/sampling.hpp"
 #include "write/writers.hpp"
@@ -77,6 +78,8 @@ void ObjWriter::write_curves(const Chain& chain) {
 }  // namespace
 
 void write_obj(const Result& result, const WriteOptions& options, Sink& sink, std::vector<Diagnostic>&) {
+  if (options.obj == ObjContent::Tree) return write_lines(LineFormat::Obj, result.model.tree, sink);
+  if (options.obj == ObjContent::Path) return write_lines(LineFormat::Obj, result.model.path, sink);
   const bool curves = options.obj == ObjContent::Curves;
   ObjWriter out(sink);
   for_each_group(result, options.edges, curves ? LoopShape::Fitted : LoopShape::Polygon,

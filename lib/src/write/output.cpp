@@ -18,7 +18,7 @@ struct Row {
   Writer writer;  // null: a picture
 };
 
-constexpr std::array<Row, 9> kFormats = {{{"png", OutputFormat::Png, nullptr},
+constexpr std::array<Row, 10> kFormats = {{{"png", OutputFormat::Png, nullptr},
                                           {"csv", OutputFormat::Csv, detail::write_csv},
                                           {"obj", OutputFormat::Obj, detail::write_obj},
                                           {"step", OutputFormat::Step, detail::write_step},
@@ -26,10 +26,11 @@ constexpr std::array<Row, 9> kFormats = {{{"png", OutputFormat::Png, nullptr},
                                           {"svg", OutputFormat::Svg, detail::write_svg},
                                           {"json", OutputFormat::Json, detail::write_json},
                                           {"glb", OutputFormat::Glb, detail::write_glb},
+                                          {"wrl", OutputFormat::Wrl, detail::write_wrl},
                                           {"stp", OutputFormat::Step, detail::write_step}}};
 
 constexpr auto kNames = [] {
-  std::array<std::string_view, 8> names;
+  std::array<std::string_view, 9> names;
   for (std::size_t i = 0; i < names.size(); ++i) names[i] = kFormats[i].name;
   return names;
 }();

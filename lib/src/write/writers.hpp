@@ -13,6 +13,7 @@ void write_step(const Result& result, const WriteOptions& options, Sink& sink,
 void write_dxf(const Result& result, const WriteOptions& options, Sink& sink, std::vector<Diagnostic>& notes);
 void write_svg(const Result& result, const WriteOptions& options, Sink& sink, std::vector<Diagnostic>& notes);
 void write_glb(const Result& result, const WriteOptions& options, Sink& sink, std::vector<Diagnostic>& notes);
+void write_wrl(const Result& result, const WriteOptions& options, Sink& sink, std::vector<Diagnostic>& notes);
 void write_json(const Result& result, const WriteOptions& options, Sink& sink,
                 std::vector<Diagnostic>& notes);
 
