@@ -336,6 +336,7 @@ FileJob make_job(const CommandLine& command_line, const std::string& input, std:
                  bool several) {
   FileJob job{command_line.job, {}};
   job.input = input;
+  job.always_fit = !command_line.reports.empty();
   auto format = command_line.formats.begin();
   for (const std::string& output : command_line.outputs) {
     const std::string path = output_path(output, input, number, several);

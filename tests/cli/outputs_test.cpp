@@ -92,6 +92,15 @@ TEST_CASE("outputs: several inputs fill the template, and a bad one does not sto
         std::set<std::string>{"first.xml", "bad.xml", "second.xml", "first-1.csv", "second-3.csv"});
 }
 
+TEST_CASE("outputs: loops are the same whether curves are wanted too or not", "[cli]") {
+  const TemporaryFolder folder;
+  const ProgramOptions here{.folder = folder.path().string()};
+  REQUIRE(run_program({kStud, "-o", "a.csv", "-o", "a.obj"}, here).code == 0);
+  REQUIRE(run_program({kStud, "-o", "b.csv", "-o", "b.obj", "-o", "b.step"}, here).code == 0);
+  CHECK(file_text(folder / "a.csv") == file_text(folder / "b.csv"));
+  CHECK(file_text(folder / "a.obj") == file_text(folder / "b.obj"));
+}
+
 TEST_CASE("outputs: standard input is read", "[cli]") {
   const ProgramResult piped = run_program({"-", "-o", "-", "--format", "csv"}, {.input = kStud});
   CHECK(piped.code == 0);

@@ -62,6 +62,7 @@ struct Job {
   WriteOptions write;
   MeshWriteOptions mesh;
   bool preview = false;          ///< make Run::preview
+  bool always_fit = false;  ///< fits curves even where no output shows them, so that a report has their times
   bool timings_in_json = false;  ///< lists the stages' times in JSON outputs, whose bytes then change from run to run
 };
 

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <mutex>
+#include <utility>
 
+#include "base/large_array.hpp"
 #include "meshcontour/error.hpp"
 #include "meshcontour/parallel.hpp"
 
@@ -32,7 +35,8 @@ void for_each_side(std::span<const Triangle> triangles, Visit&& visit) {
 // Where the sides of a point would begin if all stood in the order of the lower ends of their edges; and,
 // behind the last point, where they end.
 std::vector<Index> count_sides(std::span<const Triangle> triangles, std::size_t points) {
-  std::vector<Index> begin(points + 1, 0);
+  std::vector<Index> begin;
+  assign_large<Index>(begin, points + 1, 0);
   for_each_side(triangles, [&](Index low, Index, Index) { ++begin[low + 1]; });
   for (std::size_t v = 1; v <= points; ++v) begin[v] += begin[v - 1];
   return begin;
@@ -85,11 +89,42 @@ std::size_t pair_sides(std::span<std::uint64_t> entries, std::vector<Index>& opp
   return nonmanifold;
 }
 
+// Memory for the sides in hand, used by one range after the other: fresh memory costs more than the work on
+// it.
+class Buffers {
+ public:
+  std::vector<std::uint64_t> take(std::size_t size) {
+    std::vector<std::uint64_t> buffer;
+    {
+      const std::lock_guard lock(mutex_);
+      if (!free_.empty()) {
+        buffer = std::move(free_.back());
+        free_.pop_back();
+      }
+    }
+    if (buffer.capacity() < size) {
+      buffer = {};
+      reserve_large(buffer, size + size / 8);
+    }
+    buffer.resize(size);
+    return buffer;
+  }
+
+  void give_back(std::vector<std::uint64_t> buffer) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(buffer));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::vector<std::uint64_t>> free_;
+};
+
 // Pairs the sides whose edges have their lower end in first..last.
 std::size_t pair_range(std::span<const Triangle> triangles, std::span<const Index> begin, Index first,
-                       Index last, std::vector<Index>& opposite) {
+                       Index last, Buffers& buffers, std::vector<Index>& opposite) {
   const Index offset = begin[first];
-  std::vector<std::uint64_t> entries(begin[last] - offset);
+  std::vector<std::uint64_t> entries = buffers.take(begin[last] - offset);
   std::vector<Index> next(begin.begin() + first, begin.begin() + last);
   for_each_side(triangles, [&](Index low, Index high, Index side) {
     if (low >= first && low < last) entries[next[low - first]++ - offset] = entry_of(high, side);
@@ -99,6 +134,7 @@ std::size_t pair_range(std::span<const Triangle> triangles, std::span<const Inde
     const std::size_t size = begin[v + 1] - begin[v];
     if (size > 0) nonmanifold += pair_sides(std::span(entries).subspan(begin[v] - offset, size), opposite);
   }
+  buffers.give_back(std::move(entries));
   return nonmanifold;
 }
 
@@ -110,11 +146,12 @@ Adjacency side_adjacency(std::span<const Triangle> triangles, std::size_t points
   }
   const std::vector<Index> begin = count_sides(triangles, points), firsts = split_points(begin);
   Adjacency result;
-  result.opposite.assign(3 * triangles.size(), kNoSide);
+  assign_large(result.opposite, 3 * triangles.size(), kNoSide);
   std::atomic<std::size_t> nonmanifold = 0;
+  Buffers buffers;
   parallel_for(firsts.size() - 1, 1, threads, [&](std::size_t first_range, std::size_t last_range) {
     for (std::size_t r = first_range; r < last_range; ++r) {
-      nonmanifold += pair_range(triangles, begin, firsts[r], firsts[r + 1], result.opposite);
+      nonmanifold += pair_range(triangles, begin, firsts[r], firsts[r + 1], buffers, result.opposite);
     }
   });
   result.nonmanifold_edges = nonmanifold;

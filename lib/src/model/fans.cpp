@@ -2,6 +2,7 @@
 
 #include <atomic>
 
+#include "base/large_array.hpp"
 #include "meshcontour/error.hpp"
 #include "meshcontour/parallel.hpp"
 #include "model/point_attributes.hpp"
@@ -50,7 +51,8 @@ struct PointUse {
 
 std::size_t count_bow_ties(const Shell& shell, const Adjacency& adjacency, unsigned threads) {
   const std::span<const Triangle> triangles = shell.triangles;
-  std::vector<PointUse> uses(shell.points.size());
+  std::vector<PointUse> uses;
+  assign_large(uses, shell.points.size(), PointUse{});
   for (Index corner = 0; corner < adjacency.opposite.size(); ++corner) {
     PointUse& use = uses[side_start(triangles, corner)];
     if (use.count++ == 0) use.corner = corner;

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 
+#include "base/large_array.hpp"
 #include "meshcontour/error.hpp"
 
 namespace meshcontour::detail {
@@ -22,7 +23,7 @@ std::uint64_t bits(double coordinate, std::uint64_t seed) {
 }  // namespace
 
 PointNumbering::PointNumbering(std::size_t expected) {
-  points_.reserve(expected);
+  reserve_large(points_, expected);
   rehash(std::max(kLeastSlots, std::bit_ceil(2 * expected)), 0);
 }
 
@@ -38,7 +39,7 @@ std::uint64_t PointNumbering::hash(const Point& point) const {
 void PointNumbering::rehash(std::size_t capacity, std::uint64_t seed) {
   seed_ = seed;
   shift_ = 64 - std::countr_zero(capacity);
-  slots_.assign(capacity, Slot{});
+  assign_large(slots_, capacity, Slot{});
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const std::uint64_t h = hash(points_[i]);
     std::size_t place = home(h);

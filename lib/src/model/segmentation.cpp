@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/large_array.hpp"
 #include "model/adjacency.hpp"
 #include "model/sharp_sides.hpp"
 
@@ -17,7 +18,8 @@ constexpr Index kUnlabelled = detail::kNoSide;
 // Numbers the pieces that `crosses(side)` leaves connected, from 0 by their first triangle.
 template <typename Crosses>
 std::vector<Index> flood(const Adjacency& adjacency, Crosses&& crosses) {
-  std::vector<Index> labels(adjacency.opposite.size() / 3, kUnlabelled);
+  std::vector<Index> labels;
+  detail::assign_large(labels, adjacency.opposite.size() / 3, kUnlabelled);
   std::vector<Index> front;
   Index next_label = 0;
   for (Index seed = 0; seed < labels.size(); ++seed) {
@@ -58,7 +60,9 @@ std::vector<std::array<Index, 2>> inner_sharp_edges(const Shell& shell, const Ad
 
 template <typename Item>
 void reorder(std::vector<Item>& items, std::size_t per_triangle, const std::vector<Index>& new_place) {
-  std::vector<Item> sorted(items.size());
+  std::vector<Item> sorted;
+  detail::reserve_large(sorted, items.size());
+  sorted.resize(items.size());
   for (std::size_t t = 0; t < new_place.size(); ++t) {
     for (std::size_t k = 0; k < per_triangle; ++k) {
       sorted[new_place[t] * per_triangle + k] = items[t * per_triangle + k];
@@ -146,7 +150,8 @@ std::vector<Index> group_triangles(Shell& shell, const std::vector<Index>& numbe
   if (!std::ranges::is_sorted(numbers, {}, [&](Index number) { return patch_of[number]; })) {
     std::vector<std::size_t> next(patches.size());
     for (std::size_t p = 0; p < patches.size(); ++p) next[p] = patches[p].first_triangle;
-    std::vector<Index> new_place(numbers.size());
+    std::vector<Index> new_place;
+    detail::assign_large<Index>(new_place, numbers.size(), 0);
     for (std::size_t t = 0; t < numbers.size(); ++t)
       new_place[t] = static_cast<Index>(next[patch_of[numbers[t]]]++);
     reorder(shell.triangles, 1, new_place);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/large_array.hpp"
 #include "meshcontour/parallel.hpp"
 
 namespace meshcontour::detail {
@@ -118,7 +119,8 @@ std::vector<std::uint8_t> smooth_sides(const Shell& shell, const Adjacency& adja
                                        unsigned threads) {
   const TriangleNormals normals(shell, adjacency, threads);
   const double cosine = std::cos(radians - kAngleRounding);
-  std::vector<std::uint8_t> smooth(adjacency.opposite.size(), 0);
+  std::vector<std::uint8_t> smooth;
+  assign_large<std::uint8_t>(smooth, adjacency.opposite.size(), 0);
   parallel_for(shell.triangles.size(), kTrianglesAtATime, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Vector> near(end - begin);  // most neighbours are near
     for (std::size_t t = begin; t < end; ++t) near[t - begin] = normals(static_cast<Index>(t));

@@ -49,6 +49,7 @@ Shell subdivided(const Shell& shell, unsigned levels, const SubdivisionOptions& 
   Shell fine = shell;
   if (levels == 0) return fine;
   fine.polygons = {};
+  fine.creases.clear();  // inside patches all becomes smooth
   MeshLevel level = level_of(shell, options.creases);
   for (unsigned step = 0; step < levels; ++step) {
     if (fine.points.size() + level.edge_count() > std::numeric_limits<Index>::max() / 6) {

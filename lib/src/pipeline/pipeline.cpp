@@ -71,6 +71,30 @@ void name_file(const Job& job, Run& run) {
   }
 }
 
+bool shown(const Job& job, Layer layer, ObjContent obj, WrlContent wrl) {
+  return std::ranges::any_of(job.outputs, [&](const OutputRequest& output) {
+    return (output.format == OutputFormat::Png &&
+            std::ranges::find(job.render.layers, layer) != job.render.layers.end()) ||
+           (output.format == OutputFormat::Obj && job.write.obj == obj) ||
+           (output.format == OutputFormat::Wrl && job.write.wrl == wrl);
+  });
+}
+
+void find_lines(const Job& job, Run& run) {
+  const bool tree = shown(job, Layer::Tree, ObjContent::Tree, WrlContent::Tree);
+  const bool has_ends = job.path_from && job.path_to;
+  if (!has_ends &&
+      (job.path_from || job.path_to || shown(job, Layer::Path, ObjContent::Path, WrlContent::Path))) {
+    throw Error(ErrorCode::Usage, "a path needs --path-from and --path-to");
+  }
+  if (!tree && !has_ends) return;
+  run.timings.measure("lines", [&] {
+    if (tree) add_trees(run.model);
+    if (has_ends) add_path(run.model, job.selection.shell, *job.path_from, *job.path_to);
+  });
+  run.timings.count("lines", run.model.tree.size() + run.model.path.size());
+}
+
 void prepare_model(const Job& job, Targets& targets, Run& run) {
   run.timings.measure("read", [&] {
     ReadOptions options = job.read;
@@ -88,7 +112,6 @@ void prepare_model(const Job& job, Targets& targets, Run& run) {
       for (Shell& shell : run.model.shells) shell = subdivided(shell, job.subdivisions, job.subdivide);
     });
   }
-  find_lines(job, run);
   const Counts counts = counts_of(run.model, {}, {});
   run.timings.count("segment", counts.patches);
   if (job.subdivisions > 0) run.timings.count("subdivide", counts.triangles);
@@ -101,39 +124,43 @@ void prepare_model(const Job& job, Targets& targets, Run& run) {
     run.timings.count("simplify", counts.triangles);
     detail::report_simplifications(job.simplify, run.simplifications, run.model);
   }
+  find_lines(job, run);
   run.diagnostics = std::move(run.model.diagnostics);
 }
 
-bool shown(const Job& job, Layer layer, ObjContent obj, WrlContent wrl) {
-  return std::ranges::any_of(job.outputs, [&](const OutputRequest& output) {
-    return (output.format == OutputFormat::Png && std::ranges::find(job.render.layers, layer) != job.render.layers.end()) ||
-           (output.format == OutputFormat::Obj && job.write.obj == obj) ||
-           (output.format == OutputFormat::Wrl && job.write.wrl == wrl);
-  });
+bool shows_contours(const Job& job, const OutputRequest& output) {
+  const auto draws = [&](Layer layer) {
+    return std::ranges::find(job.render.layers, layer) != job.render.layers.end();
+  };
+  switch (output.format) {
+    case OutputFormat::Png:
+      return draws(Layer::Curves) || draws(Layer::Control);
+    case OutputFormat::Csv:
+      return job.write.csv == CsvContent::Curves;
+    case OutputFormat::Obj:
+      return job.write.obj == ObjContent::Curves;
+    case OutputFormat::Wrl:
+      return false;
+    default:
+      return true;
+  }
 }
 
-void find_lines(const Job& job, Run& run) {
-  const bool tree = shown(job, Layer::Tree, ObjContent::Tree, WrlContent::Tree);
-  const bool has_ends = job.path_from && job.path_to;
-  if (!has_ends && (job.path_from || job.path_to || shown(job, Layer::Path, ObjContent::Path, WrlContent::Path))) {
-    throw Error(ErrorCode::Usage, "a path needs --path-from and --path-to");
-  }
-  if (!tree && !has_ends) return;
-  run.timings.measure("lines", [&] {
-    if (tree) add_trees(run.model);
-    if (has_ends) add_path(run.model, job.selection.shell, *job.path_from, *job.path_to);
-  });
-  run.timings.count("lines", run.model.tree.size() + run.model.path.size());
+// Without outputs everything is told in a summary.
+bool needs_contours(const Job& job) {
+  const auto shows = [&](const OutputRequest& output) { return shows_contours(job, output); };
+  return job.always_fit || job.preview || (job.outputs.empty() && job.meshes.empty()) ||
+         std::ranges::any_of(job.outputs, shows);
 }
 
 void find_contours(const Job& job, Run& run) {
   run.timings.measure("boundary",
                       [&] { run.boundaries = extract_boundaries(run.model, job.boundary, run.diagnostics); });
+  const Counts counts = counts_of(run.model, run.boundaries, {});
+  run.timings.count("boundary", counts.boundary_edges);
+  if (!needs_contours(job)) return;
   run.timings.measure(
       "fit", [&] { run.contours = fit_contours(run.model, run.boundaries, job.fit, run.diagnostics); });
-  name_file(job, run);
-  const Counts counts = counts_of(run.model, run.boundaries, run.contours);
-  run.timings.count("boundary", counts.boundary_edges);
   run.timings.count("fit", counts.loops + counts.open_chains);
 }
 
@@ -153,6 +180,7 @@ Run run(const Job& job) {
   Targets targets(job);
   prepare_model(job, targets, run);
   find_contours(job, run);
+  name_file(job, run);
   const std::vector<std::uint8_t> png = draw(job, run);
   if (job.preview) run.timings.measure("preview", [&] { run.preview = detail::make_preview(job, run); });
   run.timings.measure("write", [&] { targets.write(run, png); });

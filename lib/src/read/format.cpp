@@ -71,7 +71,7 @@ std::span<const Format> formats() {
   static const std::vector<Format> table = {
       {"webxml", {"xml", "webxml"}, sniff_webxml, read_webxml, read_webxml_file},
       {"swept surfaces", {"swp"}, sniff_swp, read_swp},
-      {"STL", {"stl"}, sniff_stl, read_stl},
+      {"STL", {"stl"}, sniff_stl, read_stl, read_stl_file},
       {"PLY", {"ply"}, sniff_ply, read_ply},
       {"OFF", {"off"}, sniff_off, read_off},
       {"OBJ", {"obj"}, sniff_obj, read_obj},

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/large_array.hpp"
 #include "meshcontour/model.hpp"
 #include "read/format.hpp"
 
@@ -44,7 +45,7 @@ class PolygonMesh {
   void add_triangle(const Triangle& triangle, Index group = 0);
 
   /// Room for triangles of which the file is known to hold the bytes.
-  void reserve_triangles(std::size_t count) { shell_.triangles.reserve(count); }
+  void reserve_triangles(std::size_t count) { reserve_large(shell_.triangles, count); }
 
   /// Counts something that was mended or left out.
   void note(Diagnostic::Severity severity, const std::string& message, const Spot& spot = {},

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 #include "base/text_cursor.hpp"
 #include "model/point_numbering.hpp"
@@ -20,6 +21,7 @@ constexpr std::size_t kHeaderBytes = 84;
 constexpr std::size_t kFacetBytes = 50;
 constexpr std::size_t kNormalBytes = 12;
 constexpr std::size_t kFacetsAtATime = 85;
+constexpr std::size_t kFacetsInPart = 4096;  // read at a time; they stay in the cache
 
 std::uint64_t declared_facets(std::string_view head) {
   std::uint32_t count = 0;
@@ -43,70 +45,142 @@ bool is_binary(std::string_view head, std::uint64_t size) {
          kHeaderBytes + kFacetBytes * declared_facets(head) == size;
 }
 
-// The numbers of the corners of facets, read in pieces that stay in the cache.
+using Corner = std::array<float, 3>;
+
+// Remembers the numbers of corners met lately: most facets share corners with those just before them, so that few
+// corners are looked up in the table of all points.
+class RecentCorners {
+ public:
+  RecentCorners() : entries_(kEntries) {}
+
+  /// The number of a corner; kUnknown if it was not met lately.
+  Index find(const Corner& corner) const {
+    const Entry& entry = entries_[place(corner)];
+    return entry.corner == corner ? entry.number : kUnknown;
+  }
+
+  void keep(const Corner& corner, Index number) { entries_[place(corner)] = {corner, number}; }
+
+  static constexpr Index kUnknown = 0xFFFFFFFF;
+
+ private:
+  struct Entry {
+    Corner corner{};
+    Index number = kUnknown;
+  };
+  static constexpr int kBits = 15;
+  static constexpr std::size_t kEntries = std::size_t{1} << kBits;
+
+  // 0 and -0, which are equal, may stand in two places.
+  static std::size_t place(const Corner& corner) {
+    const auto bits = [](float value) { return std::uint64_t{std::bit_cast<std::uint32_t>(value)}; };
+    const std::uint64_t mixed = (bits(corner[0]) << 32 | bits(corner[1])) * 0x9E3779B97F4A7C15 ^
+                                bits(corner[2]) * 0xE7037ED1A0B428DB;
+    return static_cast<std::size_t>((mixed ^ mixed >> 29) * 0x8EBC6AF09C88C6E3 >> (64 - kBits));
+  }
+
+  std::vector<Entry> entries_;
+};
+
+// Facets in the order of the file, a few at a time.
 class BinaryFacets {
  public:
-  BinaryFacets(std::string_view facets, const ReadContext& context)
-      : facets_(facets), context_(context), numbering_(facets.size() / kFacetBytes / 2) {}
+  BinaryFacets(std::size_t count, const ReadContext& context)
+      : context_(context), mesh_(context), numbering_(count / 2 + count / 64) {
+    mesh_.reserve_triangles(count);
+  }
 
-  Model read() && {
-    PolygonMesh mesh(context_);
-    const std::size_t count = facets_.size() / kFacetBytes;
-    mesh.reserve_triangles(count);
-    for (std::size_t first = 0; first < count; first += kFacetsAtATime) {
-      const std::size_t size = std::min(kFacetsAtATime, count - first);
-      read_corners(first, size);
-      numbering_.add(std::span(corners_).first(3 * size), numbers_);
-      for (std::size_t i = 0; i < size; ++i) {
-        mesh.add_triangle({numbers_[3 * i], numbers_[3 * i + 1], numbers_[3 * i + 2]});
-      }
+  /// @param facets  whole ones.
+  void add(std::string_view facets) {
+    for (; !facets.empty(); facets.remove_prefix(std::min(facets.size(), kFacetsAtATime * kFacetBytes))) {
+      add_batch(facets.substr(0, kFacetsAtATime * kFacetBytes));
     }
-    mesh.points = std::move(numbering_).take_points();
-    return std::move(mesh).finish();
+  }
+
+  Model finish() && {
+    mesh_.points = std::move(numbering_).take_points();
+    numbering_ = PointNumbering();
+    return std::move(mesh_).finish();
   }
 
  private:
-  void read_corners(std::size_t first, std::size_t size) {
-    std::array<float, 9> coordinates;
+  void add_batch(std::string_view facets) {
+    const std::size_t size = facets.size() / kFacetBytes;
+    unknown_.clear();
     for (std::size_t i = 0; i < size; ++i) {
-      std::memcpy(coordinates.data(), facets_.data() + (first + i) * kFacetBytes + kNormalBytes,
-                  sizeof coordinates);
-      for (std::size_t k = 0; k < 3; ++k) {
-        corners_[3 * i + k] = Point(coordinates[3 * k], coordinates[3 * k + 1], coordinates[3 * k + 2]);
-        if (!corners_[3 * i + k].allFinite()) {
-          throw Error(ErrorCode::BadData, "a coordinate is not finite",
-                      {context_.name, 0, 0, fmt::format("facet {}", first + i + 1)});
-        }
-      }
+      std::memcpy(corners_.data() + 3 * i, facets.data() + i * kFacetBytes + kNormalBytes, 3 * sizeof(Corner));
+      for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) find(k);
+    }
+    number_unknown();
+    for (std::size_t i = 0; i < size; ++i) {
+      mesh_.add_triangle({numbers_[3 * i], numbers_[3 * i + 1], numbers_[3 * i + 2]});
+    }
+    facets_ += size;
+  }
+
+  void find(std::size_t k) {
+    const Corner& corner = corners_[k];
+    numbers_[k] = recent_.find(corner);
+    if (numbers_[k] != RecentCorners::kUnknown) return;
+    // Zero times anything finite is zero.
+    if (!(corner[0] * 0 + corner[1] * 0 + corner[2] * 0 == 0)) {
+      throw Error(ErrorCode::BadData, "a coordinate is not finite",
+                  {context_.name, 0, 0, fmt::format("facet {}", facets_ + k / 3 + 1)});
+    }
+    unknown_.push_back(Point(corner[0], corner[1], corner[2]));
+    unknown_corners_[unknown_.size() - 1] = static_cast<std::uint32_t>(k);
+  }
+
+  void number_unknown() {
+    std::array<Index, 3 * kFacetsAtATime> found;
+    numbering_.add(unknown_, std::span(found).first(unknown_.size()));
+    for (std::size_t i = 0; i < unknown_.size(); ++i) {
+      const std::uint32_t k = unknown_corners_[i];
+      numbers_[k] = found[i];
+      recent_.keep(corners_[k], found[i]);
     }
   }
 
-  std::string_view facets_;
   const ReadContext& context_;
+  PolygonMesh mesh_;
   PointNumbering numbering_;
-  std::array<Point, 3 * kFacetsAtATime> corners_;
+  RecentCorners recent_;
+  std::size_t facets_ = 0;  // before this batch
+  std::array<Corner, 3 * kFacetsAtATime> corners_;
   std::array<Index, 3 * kFacetsAtATime> numbers_;
+  std::array<std::uint32_t, 3 * kFacetsAtATime> unknown_corners_;
+  std::vector<Point> unknown_;
 };
 
-Model read_binary(std::string_view bytes, const ReadContext& context) {
+// Facets of a binary file that holds `size` bytes.
+std::size_t facet_count(std::string_view head, std::uint64_t size, const ReadContext& context) {
   const auto refuse = [&](const std::string& why) {
     throw Error(ErrorCode::BadData, why, {context.name, 0, 0, ""});
   };
-  if (bytes.size() < kHeaderBytes) refuse("cut short: a binary STL file has a header of 84 bytes");
-  const std::uint64_t declared = declared_facets(bytes);
-  const std::string_view facets = bytes.substr(kHeaderBytes);
-  if (declared > facets.size() / kFacetBytes) {
+  if (size < kHeaderBytes) refuse("cut short: a binary STL file has a header of 84 bytes");
+  const std::uint64_t declared = declared_facets(head);
+  if (declared > (size - kHeaderBytes) / kFacetBytes) {
     refuse(fmt::format("neither a text STL file nor a whole binary one: {} facets declared, room for {}",
-                       declared, facets.size() / kFacetBytes));
+                       declared, (size - kHeaderBytes) / kFacetBytes));
   }
-  const std::size_t used = static_cast<std::size_t>(declared) * kFacetBytes;
-  Model model = BinaryFacets(facets.substr(0, used), context).read();
-  if (used < facets.size()) {
-    model.diagnostics.push_back({Diagnostic::Severity::Warning,
-                                 fmt::format("{} bytes after the last facet, left out", facets.size() - used),
-                                 {context.name, 0, 0, ""},
-                                 1});
-  }
+  return static_cast<std::size_t>(declared);
+}
+
+void warn_of_rest(std::uint64_t size, std::size_t facets, const ReadContext& context, Model& model) {
+  const std::uint64_t rest = size - kHeaderBytes - facets * kFacetBytes;
+  if (rest == 0) return;
+  model.diagnostics.push_back({Diagnostic::Severity::Warning,
+                               fmt::format("{} bytes after the last facet, left out", rest),
+                               {context.name, 0, 0, ""},
+                               1});
+}
+
+Model read_binary(std::string_view bytes, const ReadContext& context) {
+  const std::size_t count = facet_count(bytes, bytes.size(), context);
+  BinaryFacets facets(count, context);
+  facets.add(bytes.substr(kHeaderBytes, count * kFacetBytes));
+  Model model = std::move(facets).finish();
+  warn_of_rest(bytes.size(), count, context, model);
   return model;
 }
 
@@ -184,6 +258,21 @@ Match sniff_stl(std::string_view head, std::uint64_t size) {
 Model read_stl(std::string_view bytes, const ReadContext& context) {
   if (!is_binary(bytes, bytes.size()) && starts_as_text(bytes)) return TextSolids(bytes, context).read();
   return read_binary(bytes, context);
+}
+
+Model read_stl_file(InputFile& file, const ReadContext& context) {
+  if (!is_binary(file.head(), file.size())) return read_stl(file.read().view(), context);
+  const std::size_t count = facet_count(file.head(), file.size(), context);
+  BinaryFacets facets(count, context);
+  std::vector<char> part(std::min(count, kFacetsInPart) * kFacetBytes);
+  for (std::size_t done = 0; done < count; done += kFacetsInPart) {
+    const std::size_t size = std::min(kFacetsInPart, count - done) * kFacetBytes;
+    if (file.read_at(part.data(), size, kHeaderBytes + done * kFacetBytes) < size) {
+      throw Error(ErrorCode::BadData, "cut short while it was read", {context.name, 0, 0, ""});
+    }
+    facets.add({part.data(), size});
+  }
+  return std::move(facets).finish();
 }
 
 }  // namespace meshcontour::detail

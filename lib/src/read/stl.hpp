@@ -9,5 +9,7 @@ namespace meshcontour::detail {
 /// header says "solid" is told by its size.
 Match sniff_stl(std::string_view head, std::uint64_t size);
 Model read_stl(std::string_view bytes, const ReadContext& context);
+/// Binary files part by part.
+Model read_stl_file(InputFile& file, const ReadContext& context);
 
 }  // namespace meshcontour::detail

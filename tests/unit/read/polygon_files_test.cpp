@@ -5,6 +5,7 @@
 #include "meshcontour/read.hpp"
 #include "support/catch.hpp"
 #include "support/polygon_samples.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace meshcontour;
 
@@ -69,6 +70,31 @@ TEST_CASE("STL: corners become points by first appearance, 0 and -0 alike", "[re
   const Shell shell = read_shell(samples::binary_stl("header"), "a.stl");
   CHECK(shell.points == std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
   CHECK_FALSE(std::signbit(shell.points[0].x()));
+}
+
+TEST_CASE("STL: a file that is read in parts gives the same as from memory", "[read][polygon]") {
+  constexpr std::uint32_t kSide = 100;
+  std::string bytes(84, ' ');
+  const std::uint32_t count = 2 * kSide * kSide;
+  std::memcpy(bytes.data() + 80, &count, sizeof count);
+  for (std::uint32_t cell = 0; cell < kSide * kSide; ++cell) {
+    // Cells far apart follow one another, so that corners come back late.
+    const std::uint32_t place = cell * 7919 % (kSide * kSide);
+    const auto x = static_cast<float>(place % kSide), y = static_cast<float>(place / kSide);
+    const float zero = cell % 2 == 0 ? 0.0f : -0.0f;
+    samples::append_facet(bytes, {x, y, zero, x + 1, y, 0, x + 1, y + 1, 0});
+    samples::append_facet(bytes, {x, y, 0, x + 1, y + 1, zero, x, y + 1, 0});
+  }
+  const TemporaryFolder folder;
+  write_file(folder / "a.stl", bytes);
+  const Shell shell = read_model(folder / "a.stl").shells[0], other = read_shell(bytes, "a.stl");
+  CHECK(shell.points.size() == (kSide + 1) * (kSide + 1));
+  CHECK(shell.points == other.points);
+  CHECK(shell.triangles == other.triangles);
+  const float infinity = std::numeric_limits<float>::infinity();
+  std::memcpy(bytes.data() + 84 + 50 * 12345 + 16, &infinity, sizeof infinity);
+  write_file(folder / "b.stl", bytes);
+  CHECK_THROWS_WITH(read_model(folder / "b.stl"), Catch::Contains("facet 12346: a coordinate is not finite"));
 }
 
 TEST_CASE("STL: several solids are patches", "[read][polygon]") {
