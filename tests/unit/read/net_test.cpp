@@ -51,7 +51,7 @@ f 3 0 4 7
 // A fan round the origin: a closed ring of k triangles, each of the points on the ring at the border.
 std::string ring(int k) {
   std::string text = "v 0 0 0\n";
-  for (int i = 0; i < k; ++i) text += fmt::format("v {} {} 0\n", i % 5, i);
+  for (int i = 0; i < k; ++i) text += fmt::format("v {} {} 0\n", i + 1, i * i);
   for (int i = 0; i < k; ++i) text += fmt::format("f 0 {} {}\n", i + 1, (i + 1) % k + 1);
   return text;
 }
