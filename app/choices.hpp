@@ -20,13 +20,14 @@ namespace meshcontour::app {
 template <class T, std::size_t N>
 using Choices = std::array<std::pair<std::string_view, T>, N>;
 
-inline constexpr Choices<Layer, 10> kLayers = {{{"mesh", Layer::Mesh},
+inline constexpr Choices<Layer, 11> kLayers = {{{"mesh", Layer::Mesh},
                                                {"edges", Layer::Edges},
                                                {"curves", Layer::Curves},
                                                {"wireframe", Layer::Wireframe},
                                                {"points", Layer::Points},
                                                {"control", Layer::Control},
                                                {"frames", Layer::Frames},
+                                               {"detail", Layer::Detail},
                                                {"annotations", Layer::Annotations},
                                                {"tree", Layer::Tree},
                                                {"path", Layer::Path}}};

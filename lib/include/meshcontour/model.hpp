@@ -37,6 +37,7 @@ struct Shell {
   std::vector<Triangle> triangles;
   std::vector<Patch> patches;
   std::vector<Vector> corner_normals;  ///< 3 a triangle, of length 1, or (0,0,0) where unknown; or the whole list empty
+  std::vector<double> details;  ///< one a point: the length of its wavelet coefficient, for pictures; or empty
   std::vector<std::array<Index, 2>> creases;  ///< sharp edges inside a patch, sorted: drawn, but no boundary
   std::vector<Eigen::Vector4d> point_colors;  ///< red, green, blue and alpha from 0 to 1, one a point; or empty
   std::vector<Eigen::Vector2d> texture_coordinates;  ///< one a point; or empty

@@ -20,6 +20,7 @@ enum class Layer {
   Points,       ///< boundary vertices
   Control,      ///< control polygons, control points and knots of the fitted contours
   Frames,       ///< along the model's own curves: normal red, binormal green, tangent blue
+  Detail,       ///< lit triangles, coloured by the size of the wavelet coefficients: Shell::details
   Annotations,  ///< line drawings that come with the model
   Tree,         ///< Model::tree: spanning trees of the patches
   Path,         ///< Model::path: the shortest path between two vertices

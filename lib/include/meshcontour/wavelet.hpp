@@ -23,6 +23,10 @@ struct SubdivisionConnectivity {
 /// several coarser meshes (a regular torus, a strip) the first that is found counts.
 SubdivisionConnectivity find_subdivision(const Shell& shell);
 
+/// The length of the wavelet coefficient of each point of a shell, 0 at those of the coarsest mesh; nothing
+/// if the shell comes from no subdivision.
+std::vector<double> detail_sizes(const Shell& shell, const SubdivisionOptions& options = {});
+
 /// A lifted butterfly wavelet transform on the meshes that a base mesh gives by quadrisection.
 ///
 /// Level 0 is the base mesh; level j+1 has the vertices of level j first (even) and then one for each of its

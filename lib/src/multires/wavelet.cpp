@@ -157,6 +157,19 @@ std::size_t WaveletTransform::unlifted() const {
   return implementation_->unlifted;
 }
 
+std::vector<double> detail_sizes(const Shell& shell, const SubdivisionOptions& options) {
+  const SubdivisionConnectivity connectivity = find_subdivision(shell);
+  if (connectivity.levels == 0) return {};
+  std::vector<Point> points(connectivity.order.size());
+  for (std::size_t v = 0; v < points.size(); ++v) points[v] = shell.points[connectivity.order[v]];
+  WaveletTransform(connectivity.base, connectivity.levels, options).analyse(points);
+  std::vector<double> sizes(shell.points.size(), 0);
+  for (std::size_t v = connectivity.base.points.size(); v < points.size(); ++v) {
+    sizes[connectivity.order[v]] = points[v].norm();
+  }
+  return sizes;
+}
+
 void WaveletTransform::analyse(std::span<Point> points) const {
   for (std::size_t j = levels(); j-- > 0;) {
     const std::span<Point> fine = points.first(implementation_->levels[j + 1].vertex_count);

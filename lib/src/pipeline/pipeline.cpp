@@ -6,6 +6,7 @@
 #include "meshcontour/cleaning.hpp"
 #include "meshcontour/graph.hpp"
 #include "meshcontour/output.hpp"
+#include "meshcontour/wavelet.hpp"
 #include "pipeline/preview.hpp"
 #include "pipeline/selection.hpp"
 #include "pipeline/simplification_report.hpp"
@@ -95,6 +96,18 @@ void find_lines(const Job& job, Run& run) {
   run.timings.count("lines", run.model.tree.size() + run.model.path.size());
 }
 
+void find_details(const Job& job, Run& run) {
+  run.timings.measure("detail", [&] {
+    for (Shell& shell : run.model.shells) shell.details = detail_sizes(shell, job.subdivide);
+  });
+  const auto plain = std::ranges::count_if(run.model.shells, [](const Shell& shell) { return shell.details.empty(); });
+  if (plain == 0) return;
+  run.model.diagnostics.push_back({Diagnostic::Severity::Warning,
+                                   "layer detail: shell whose triangles come from no subdivision has no details",
+                                   {},
+                                   static_cast<std::size_t>(plain)});
+}
+
 void prepare_model(const Job& job, Targets& targets, Run& run) {
   run.timings.measure("read", [&] {
     ReadOptions options = job.read;
@@ -119,6 +132,7 @@ void prepare_model(const Job& job, Targets& targets, Run& run) {
     run.timings.measure("wavelet", [&] { targets.write_wavelets(run.model, run.model.diagnostics); });
     run.timings.count("wavelet", counts.triangles);
   }
+  if (std::ranges::find(job.render.layers, Layer::Detail) != job.render.layers.end()) find_details(job, run);
   if (job.simplify.goal != SimplifyGoal::None) {
     run.timings.measure("simplify", [&] { run.simplifications = simplify_model(run.model, job.simplify); });
     run.timings.count("simplify", counts.triangles);

@@ -49,10 +49,30 @@ Vertex lit_vertex(const LocalFrame& frame, const Point& p, const Eigen::Vector3f
   return {{local.x(), local.y(), local.z()}, {fixed(0), fixed(1), fixed(2), 0}, color};
 }
 
-void fill_triangles(const Drawing& drawing, std::size_t s, Vertex* corners) {
+// From light through yellow and red to dark: a coefficient of the largest size, and ones smaller by powers of ten.
+Rgba detail_color(double size, double largest) {
+  constexpr std::array<Rgba, 5> kScale = {
+      {{247, 247, 250, 255}, {255, 237, 160, 255}, {254, 178, 76, 255}, {227, 60, 40, 255}, {110, 0, 50, 255}}};
+  constexpr double kDecades = 4;
+  if (!(size > 0) || !(largest > 0)) return kScale.front();
+  const double at = std::clamp(1 + std::log10(size / largest) / kDecades, 0.0, 1.0) * (kScale.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(at), kScale.size() - 2);
+  return mixed(kScale[below], kScale[below + 1], at - static_cast<double>(below));
+}
+
+// One a point, or nothing where the shell has no coefficients.
+std::vector<Rgba> detail_colors(const Shell& shell) {
+  std::vector<Rgba> colors;
+  if (shell.details.size() != shell.points.size()) return colors;
+  const double largest = shell.details.empty() ? 0 : *std::ranges::max_element(shell.details);
+  for (const double size : shell.details) colors.push_back(detail_color(size, largest));
+  return colors;
+}
+
+void fill_triangles(const Drawing& drawing, std::size_t s, const std::vector<Rgba>& colors, Vertex* corners) {
   const Shell& shell = drawing.model.shells[s];
   const auto normals = lighting_normals(shell, drawing.options.threads);
-  const bool colored_points = by_points(drawing, shell);
+  const bool colored_points = colors.empty() && by_points(drawing, shell);
   for (std::size_t p = 0; p < shell.patches.size(); ++p) {
     const Rgba flat_color = face_color(drawing, s, p);
     const Patch& patch = shell.patches[p];
@@ -61,7 +81,7 @@ void fill_triangles(const Drawing& drawing, std::size_t s, Vertex* corners) {
                    for (std::size_t t = patch.first_triangle + begin; t < patch.first_triangle + end; ++t) {
                      for (std::size_t c = 0; c < 3; ++c) {
                        const Index v = shell.triangles[t][c];
-                       const Rgba color = colored_points ? point_color(shell, v) : flat_color;
+                       const Rgba color = !colors.empty() ? colors[v] : colored_points ? point_color(shell, v) : flat_color;
                        corners[3 * t + c] = lit_vertex(drawing.frames[s], shell.points[v], normals[3 * t + c], color);
                      }
                    }
@@ -69,7 +89,7 @@ void fill_triangles(const Drawing& drawing, std::size_t s, Vertex* corners) {
   }
 }
 
-void add_mesh(const Drawing& drawing, Scene& scene) {
+void add_triangles(const Drawing& drawing, bool by_detail, Scene& scene) {
   for (std::size_t s = 0; s < drawing.model.shells.size(); ++s) {
     const std::size_t triangles = drawing.model.shells[s].triangles.size();
     if (!placed(drawing, s) || triangles == 0) continue;
@@ -78,9 +98,18 @@ void add_mesh(const Drawing& drawing, Scene& scene) {
     batch.first = scene.vertices.size();
     batch.count = 3 * triangles;
     scene.vertices.resize(batch.first + batch.count);
-    fill_triangles(drawing, s, scene.vertices.data() + batch.first);
+    fill_triangles(drawing, s, by_detail ? detail_colors(drawing.model.shells[s]) : std::vector<Rgba>{},
+                   scene.vertices.data() + batch.first);
     scene.batches.push_back(std::move(batch));
   }
+}
+
+void add_mesh(const Drawing& drawing, Scene& scene) {
+  add_triangles(drawing, false, scene);
+}
+
+void add_detail(const Drawing& drawing, Scene& scene) {
+  add_triangles(drawing, true, scene);
 }
 
 using Edge = std::array<Index, 2>;
@@ -196,7 +225,8 @@ struct LayerRow {
   void (*add)(const Drawing&, Scene&);
 };
 
-constexpr std::array<LayerRow, 10> kLayers = {{{Layer::Mesh, add_mesh},
+constexpr std::array<LayerRow, 11> kLayers = {{{Layer::Mesh, add_mesh},
+                                              {Layer::Detail, add_detail},
                                               {Layer::Edges, add_edges},
                                               {Layer::Curves, add_curves},
                                               {Layer::Control, add_control},

@@ -218,6 +218,16 @@ TEST_CASE("find_subdivision: a shuffled subdivision is found and put in order", 
   }
 }
 
+TEST_CASE("detail_sizes: large where a point was moved, nothing without subdivision", "[multires]") {
+  Shell fine = subdivided(surfaces::octahedron(), 4);
+  fine.points.back() += Vector(0, 0, 0.25);
+  const std::vector<double> sizes = detail_sizes(fine);
+  REQUIRE(sizes.size() == fine.points.size());
+  CHECK(sizes.back() == Approx(0.25));
+  CHECK(*std::ranges::max_element(sizes) == sizes.back());
+  CHECK(detail_sizes(surfaces::height_field(5, false)).empty());
+}
+
 TEST_CASE("find_subdivision: other meshes are none", "[multires]") {
   Shell shell = surfaces::bumpy_sphere(2);
   shell.triangles.pop_back();
