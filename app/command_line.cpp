@@ -198,6 +198,16 @@ bool answer(const Questions& questions, const OptionTable& table) {
   return questions.manual || questions.completion || questions.configuration;
 }
 
+// Where the layers show a tree or a path and no other contours, that is what an .obj or .wrl is asked to hold.
+void follow_layers(const CLI::App& app, const std::vector<Layer>& layers, WriteOptions& write) {
+  const auto shown = [&](Layer layer) { return std::ranges::find(layers, layer) != layers.end(); };
+  if (shown(Layer::Edges) || shown(Layer::Curves)) return;
+  const bool tree = shown(Layer::Tree), path = shown(Layer::Path) && !tree;
+  if (app.count("--obj") == 0 && tree) write.obj = ObjContent::Tree;
+  if (app.count("--obj") == 0 && path) write.obj = ObjContent::Path;
+  if (app.count("--wrl") == 0 && path) write.wrl = WrlContent::Path;
+}
+
 std::string format_names() {
   std::string out;
   for (const std::string_view name : output_format_names())
@@ -316,6 +326,7 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
 
   RenderOptions& render = line.job.render;
   if (app.count("--layers") > 0) render.layers = parse_choices(texts.layers, kLayers, "--layers");
+  follow_layers(app, render.layers, line.job.write);
   if (app.count("--background") > 0) render.background = parse_background(texts.background);
   if (render.view == View::Report) render.width = render.height = 500;
   if (app.count("--size") > 0) std::tie(render.width, render.height) = parse_size(texts.size);

@@ -30,6 +30,10 @@ TEST_CASE("lines: spanning trees and paths as pictures, OBJ and VRML", "[cli]") 
   CHECK(file_text(folder / "tree.obj") ==
         "o shell_mesh_patch_1_tree\nv 0 0 0\nv 1 0 0\nl 1 2\nv 0 0 0\nv 0 2 0\nl 3 4\nv 0 0 0\nv 0 0 3\nl 5 "
         "6\n");
+  run({"--layers", "tree", "-o", "same.obj"});
+  CHECK(file_text(folder / "same.obj") == file_text(folder / "tree.obj"));
+  run({"--layers", "mesh,tree,edges", "-o", "other.obj"});
+  CHECK(file_text(folder / "other.obj") != file_text(folder / "tree.obj"));
   CHECK_THAT(file_text(folder / "tree.wrl"),
              Contains("IndexedLineSet") && Contains("0, 1, -1,\n2, 3, -1,\n4, 5, -1,\n"));
   CHECK_THAT(run({"--path-from", "1", "--path-to", "3", "-o", "way.wrl", "--wrl", "path", "-o", "way.png",
