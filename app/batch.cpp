@@ -9,6 +9,7 @@
 #include <set>
 #include <thread>
 
+#include "file_job.hpp"
 #include "inputs.hpp"
 #include "journal.hpp"
 #include "meshcontour/output.hpp"
@@ -44,15 +45,16 @@ Outcome lost_outcome(const FileJob& job, const TaskResult& result, const Command
   Outcome outcome;
   outcome.report.file = job.input;
   const std::string name = printable(job.input);
+  const Spot input{job.input, 0, 0, ""};
   if (result.end == TaskResult::End::TimedOut) {
-    fail(ErrorCode::TimeLimit, fmt::format("{}: took longer than {} s", name, line.timeout), outcome);
+    fail(ErrorCode::TimeLimit, fmt::format("{}: took longer than {} s", name, line.timeout), input, line, outcome);
   } else if (result.end == TaskResult::End::TooLarge) {
     fail(ErrorCode::OutOfMemory, fmt::format("{}: needs more memory than {} MB", name, line.max_memory / 1'000'000),
-         outcome);
+         input, line, outcome);
   } else {
     fail(ErrorCode::Internal,
          fmt::format("{}: the program was ended by signal {} ({})", name, result.signal, strsignal(result.signal)),
-         outcome);
+         input, line, outcome);
   }
   return outcome;
 }

@@ -13,6 +13,7 @@
 #include "meshcontour/subdivision.hpp"
 #include "meshcontour/sweep.hpp"
 #include "meshcontour/write.hpp"
+#include "messages.hpp"
 
 namespace meshcontour::app {
 
@@ -20,7 +21,7 @@ namespace meshcontour::app {
 template <class T, std::size_t N>
 using Choices = std::array<std::pair<std::string_view, T>, N>;
 
-inline constexpr Choices<Layer, 11> kLayers = {{{"mesh", Layer::Mesh},
+inline constexpr Choices<Layer, 13> kLayers = {{{"mesh", Layer::Mesh},
                                                {"edges", Layer::Edges},
                                                {"curves", Layer::Curves},
                                                {"wireframe", Layer::Wireframe},
@@ -30,7 +31,9 @@ inline constexpr Choices<Layer, 11> kLayers = {{{"mesh", Layer::Mesh},
                                                {"detail", Layer::Detail},
                                                {"annotations", Layer::Annotations},
                                                {"tree", Layer::Tree},
-                                               {"path", Layer::Path}}};
+                                               {"path", Layer::Path},
+                                               {"axes", Layer::Axes},
+                                               {"scale", Layer::Scale}}};
 inline constexpr Choices<View, 8> kViews = {{{"iso", View::Iso},
                                              {"front", View::Front},
                                              {"back", View::Back},
@@ -42,6 +45,8 @@ inline constexpr Choices<View, 8> kViews = {{{"iso", View::Iso},
 inline constexpr Choices<UpAxis, 3> kUpAxes = {{{"x", UpAxis::X}, {"y", UpAxis::Y}, {"z", UpAxis::Z}}};
 inline constexpr Choices<ColorBy, 4> kColorings = {
     {{"file", ColorBy::File}, {"patch", ColorBy::Patch}, {"layer", ColorBy::Layer}, {"type", ColorBy::Type}}};
+inline constexpr Choices<MessageStyle, 2> kMessageStyles = {
+    {{"text", MessageStyle::Text}, {"github", MessageStyle::GitHub}}};
 inline constexpr Choices<GlBackend, 3> kBackends = {
     {{"auto", GlBackend::Automatic}, {"osmesa", GlBackend::OSMesa}, {"egl", GlBackend::Egl}}};
 inline constexpr Choices<Extractor, 2> kExtractors = {

@@ -9,6 +9,7 @@
 
 #include "choices.hpp"
 #include "documentation.hpp"
+#include "file_job.hpp"
 #include "help.hpp"
 #include "meshcontour/version.hpp"
 #include "option_group.hpp"
@@ -20,7 +21,8 @@ namespace {
 constexpr const char* kFooter = R"(The kind of an output follows its extension: .png .csv .obj .step
 .dxf .svg .json .glb .wrl .html
 With several inputs use {stem}, {dir} and {n} in the names of the outputs; an
-.html without them is one page of all inputs.
+.html without them is one page of all inputs. With several views use {view}
+in those of pictures.
 Angles are in degrees, lengths in the unit of the model.
 
 Exit codes: 0 ok, 64 usage, 65 bad data, 66 no input, 69 no renderer,
@@ -34,7 +36,7 @@ std::string version_text() {
 
 // Options that are parsed once all are known, as one's default depends on another.
 struct PictureTexts {
-  std::string layers, size, background;
+  std::string layers, views, size, background;
 };
 
 void add_output_options(Group group, CommandLine& line) {
@@ -77,6 +79,12 @@ void add_output_options(Group group, CommandLine& line) {
 
 void add_model_options(Group group, CommandLine& line) {
   Job& job = line.job;
+  const auto add_unit = [&](const std::string& name, double& metres, const std::string& help) {
+    const auto parse = [&metres, name](const std::string& text) { metres = parse_unit(text, name); };
+    group.add_parsed(name, "UNIT", parse, help);
+  };
+  add_unit("--input-unit", job.input_unit, "Unit of the input, whatever it tells: " + unit_symbols());
+  add_unit("--unit", job.unit, "Convert lengths to this unit; other options are in it too, but for --weld");
   group.add_choice("--patches-from", job.segment.source, kPatchSources, "Where patches come from");
   group.add_angle("--feature-angle", job.segment.feature_angle, 180,
                   "An edge is sharp above it; for files without patches");
@@ -134,12 +142,19 @@ void add_contour_options(Group group, CommandLine& line) {
 void add_picture_options(Group group, RenderOptions& render, PictureTexts& texts) {
   group.add_words("--layers", texts.layers, kLayers, "What is drawn, in this order")
       ->default_str(join_words(render.layers, kLayers));
-  group.add_choice("--view", render.view, kViews, "Camera");
+  group.add_words("--view", texts.views, kViews, "Cameras, a picture each")
+      ->default_str(word_of(kViews, render.view));
   group.add_choice("--up", render.up, kUpAxes, "The model's axis that points up, but for --view report");
-  group.add_text("--size", texts.size, "WxH", "Pixels, 1 to 16384 a side; --view report has 500x500")
+  group.add_text("--size", texts.size, "WxH", "Pixels, 1 to 16384 a side; --view report alone has 500x500")
       ->default_str(fmt::format("{}x{}", render.width, render.height));
   group.add_text("--background", texts.background, "COLOUR", "rrggbb, or none")->default_str("ffffff");
   group.add_choice("--color-by", render.color_by, kColorings, "Colours of the layers");
+  const auto add_style = [&render](LayerStyle (*parse)(std::string_view)) {
+    return [&render, parse](const std::string& text) { render.styles.push_back(parse(text)); };
+  };
+  group.add_each("--color", "LAYER=rrggbb", add_style(parse_layer_color), "Colour of a layer, repeatable");
+  group.add_each("--line-width", "LAYER=PIXELS", add_style(parse_layer_width),
+                 "Width of its lines, size of its points, repeatable");
   group.add_choice("--gl", render.backend, kBackends, "OpenGL context");
 }
 
@@ -159,6 +174,7 @@ void add_run_options(Group group, CommandLine& line) {
   const auto parse_part = [&line](const std::string& text) { line.shard = parse_shard(text); };
   group.add_parsed("--shard", "I/N", parse_part, "Only the I-th of N parts of the inputs, for array jobs");
   group.add_count("--repeat", line.repeat, "Run every input so often; reports have the medians", 1000);
+  group.add_choice("--messages", line.messages, kMessageStyles, "Form of warnings and errors");
   group.add_action(
       "-q,--quiet", [&line] { line.verbosity = -1; }, "Errors only");
   group.add_action(
@@ -208,20 +224,13 @@ void follow_layers(const CLI::App& app, const std::vector<Layer>& layers, WriteO
   if (app.count("--wrl") == 0 && path) write.wrl = WrlContent::Path;
 }
 
-std::string format_names() {
-  std::string out;
-  for (const std::string_view name : output_format_names())
-    out += (out.empty() ? "" : ", ") + std::string(name);
-  return out;
-}
-
 // Every option that was given and changes results, with its values.
 std::string options_text(const CLI::App& app) {
   std::string text;
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();
     const bool matters = option->count() > 0 && name != "INPUT" && name != "--jobs" && name != "--resume" &&
-                         name != "--shard" && name != "--report" && name != "--quiet" &&
+                         name != "--shard" && name != "--messages" && name != "--report" && name != "--quiet" &&
                          name != "--verbose" && name != "--config";
     if (matters) text += fmt::format("{}={}\n", name, fmt::join(option->results(), ","));
   }
@@ -230,15 +239,6 @@ std::string options_text(const CLI::App& app) {
 
 [[noreturn]] void usage(const std::string& message) {
   throw Error(ErrorCode::Usage, message + "\nTry 'meshcontour --help'.");
-}
-
-std::string output_path(const std::string& name, const std::string& input, std::size_t number, bool several) {
-  const std::string path = fill_template(name, input, number);
-  if (several && path == name && path != "-") {
-    usage(fmt::format("with several inputs the name of the output '{}' needs {{stem}} or {{n}}",
-                      printable(name)));
-  }
-  return path;
 }
 
 std::string extension(const std::string& path) {
@@ -253,7 +253,7 @@ void take_pages(CommandLine& line) {
     const bool named = extension(output) == ".html" || extension(output) == ".htm";
     const bool by_format = !named && !output_format(extension(output)) && format != line.formats.end();
     if (named || (by_format && *format == "html")) {
-      if (fill_template(output, "input", 1) == output) {
+      if (fill_template(output, "input", 1, "") == output) {
         line.reports.emplace_back(ReportFormat::Html, output);
       } else {
         line.pages.push_back(output);
@@ -289,21 +289,6 @@ bool parse(OptionTable& table, int argc, const char* const* argv) {
 
 }  // namespace
 
-void set_threads(Job& job, unsigned threads) {
-  job.read.threads = job.segment.threads = job.subdivide.threads = job.simplify.threads =
-      job.boundary.threads = job.fit.threads =
-      job.render.threads = threads;
-}
-
-std::vector<std::string> output_paths(const FileJob& job) {
-  std::vector<std::string> paths;
-  for (const OutputRequest& output : job.outputs) paths.push_back(output.path);
-  for (const MeshRequest& mesh : job.meshes) paths.push_back(mesh.path);
-  paths.insert(paths.end(), job.wavelets.begin(), job.wavelets.end());
-  paths.insert(paths.end(), job.pages.begin(), job.pages.end());
-  return paths;
-}
-
 std::optional<CommandLine> parse_command_line(int argc, const char* const* argv) {
   CommandLine line;
   PictureTexts texts;
@@ -328,12 +313,13 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
   if (app.count("--layers") > 0) render.layers = parse_choices(texts.layers, kLayers, "--layers");
   follow_layers(app, render.layers, line.job.write);
   if (app.count("--background") > 0) render.background = parse_background(texts.background);
-  if (render.view == View::Report) render.width = render.height = 500;
+  line.views = app.count("--view") > 0 ? parse_choices(texts.views, kViews, "--view") : std::vector{render.view};
+  render.view = line.views.front();
+  if (line.views == std::vector{View::Report}) render.width = render.height = 500;
   if (app.count("--size") > 0) std::tie(render.width, render.height) = parse_size(texts.size);
   if (line.job.path_from.has_value() != line.job.path_to.has_value()) usage("a path needs --path-from and --path-to");
   if (line.repeat == 0) refuse("--repeat", "0", "at least 1");
   set_threads(line.job, line.threads);
-  line.job.write.view = render.view;
   line.job.simplify.boundary = line.job.subdivide.boundary;
   line.job.write.up = render.up;
   line.job.wavelet.subdivide = line.job.subdivide;
@@ -341,43 +327,6 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
   line.options_text = options_text(app);
   take_pages(line);
   return line;
-}
-
-FileJob make_job(const CommandLine& command_line, const std::string& input, std::size_t number,
-                 bool several) {
-  FileJob job{command_line.job, {}};
-  job.input = input;
-  job.always_fit = !command_line.reports.empty();
-  auto format = command_line.formats.begin();
-  for (const std::string& output : command_line.outputs) {
-    const std::string path = output_path(output, input, number, several);
-    auto known = output_format(extension(path));
-    if (!known) {
-      if (format == command_line.formats.end()) {
-        usage(fmt::format("the output '{}' has no known extension ({}); name its format with --format",
-                          printable(path), format_names()));
-      }
-      known = output_format(*format);
-      if (!known) refuse("--format", *format, "one of " + format_names());
-      ++format;
-    }
-    job.outputs.push_back({path, *known});
-  }
-  for (const std::string& mesh : command_line.meshes) {
-    const std::string path = output_path(mesh, input, number, several);
-    const auto known = mesh_format(extension(path));
-    if (!known) refuse("--save-mesh", path, "a name that ends with .off, .obj, .stl, .ply or .net");
-    job.meshes.push_back({path, *known});
-  }
-  for (const std::string& wavelet : command_line.wavelets) {
-    job.wavelets.push_back(output_path(wavelet, input, number, several));
-  }
-  for (const std::string& page : command_line.pages) {
-    job.pages.push_back(output_path(page, input, number, several));
-  }
-  const auto is_page = [](const auto& report) { return report.first == ReportFormat::Html; };
-  job.preview = !job.pages.empty() || std::ranges::any_of(command_line.reports, is_page);
-  return job;
 }
 
 }  // namespace meshcontour::app

@@ -20,7 +20,8 @@ std::string patch_name(const Model& model, const PatchComparison& patch) {
 }
 
 // One line for each patch whose extractors differ; those that must not are failures.
-void list_differences(const Model& model, const std::vector<PatchComparison>& patches, Outcome& outcome) {
+void list_differences(const Model& model, const std::vector<PatchComparison>& patches,
+                      const CommandLine& line, Outcome& outcome) {
   for (const PatchComparison& patch : patches) {
     if (patch.equal) continue;
     const std::string text = fmt::format("{}: halfedge {} edges in {} loops, sorted {} in {}, valence {} vertices",
@@ -28,7 +29,7 @@ void list_differences(const Model& model, const std::vector<PatchComparison>& pa
                                          patch.sorted.edges, patch.sorted.loops, patch.valence_vertices);
     outcome.output += patch.manifold ? "DISAGREE " + text + '\n' : "not a manifold, " + text + '\n';
     if (!patch.disagrees()) continue;
-    fail(ErrorCode::Internal, "the extractors disagree on " + patch_name(model, patch), outcome);
+    fail(ErrorCode::Internal, "the extractors disagree on " + patch_name(model, patch), {}, line, outcome);
   }
 }
 
@@ -65,7 +66,7 @@ void compare(const Model& model, const CommandLine& line, Outcome& outcome) {
   row("halfedge", fmt::format("{}", halfedge.edges), halfedge.vertices, fmt::format("{}", halfedge.loops));
   row("sorted", fmt::format("{}", sorted.edges), sorted.vertices, fmt::format("{}", sorted.loops));
   row("valence", "-", valence_vertices, "-");
-  list_differences(model, patches, outcome);
+  list_differences(model, patches, line, outcome);
 }
 
 }  // namespace meshcontour::app

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "command_line.hpp"
+#include "file_job.hpp"
 
 namespace meshcontour::app {
 

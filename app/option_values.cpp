@@ -25,7 +25,31 @@ std::optional<std::uint8_t> hexadecimal_byte(std::string_view text) {
   return value;
 }
 
+std::optional<Rgba> hexadecimal_color(std::string_view text) {
+  const std::string_view digits = text.starts_with('#') ? text.substr(1) : text;
+  if (digits.size() != 6 && digits.size() != 8) return std::nullopt;
+  const auto channel = [&](std::size_t at) { return hexadecimal_byte(digits.substr(at, 2)); };
+  const auto red = channel(0), green = channel(2), blue = channel(4),
+             alpha = digits.size() == 8 ? channel(6) : std::optional<std::uint8_t>(255);
+  if (!red || !green || !blue || !alpha) return std::nullopt;
+  return Rgba{*red, *green, *blue, *alpha};
+}
+
+// Both sides of an equals sign.
+std::pair<Layer, std::string_view> layer_and_value(std::string_view text, std::string_view option,
+                                                   std::string_view expected) {
+  const std::size_t equals = text.find('=');
+  if (equals == text.npos) refuse(option, text, expected);
+  return {parse_choice(text.substr(0, equals), kLayers, option), text.substr(equals + 1)};
+}
+
 }  // namespace
+
+std::string unit_symbols() {
+  std::string out;
+  for (const LengthUnit& unit : kLengthUnits) out += (out.empty() ? "" : ", ") + std::string(unit.symbol);
+  return out;
+}
 
 void refuse(std::string_view option, std::string_view text, std::string_view expected) {
   throw Error(ErrorCode::Usage, fmt::format("{}: expected {}, found '{}'", option, expected, printable(text)));
@@ -107,14 +131,32 @@ std::pair<int, int> parse_size(std::string_view text) {
 
 std::optional<Rgba> parse_background(std::string_view text) {
   if (text == "none") return std::nullopt;
-  const std::string_view digits = text.starts_with('#') ? text.substr(1) : text;
-  const bool sized = digits.size() == 6 || digits.size() == 8;
-  const auto channel = [&](std::size_t at) { return hexadecimal_byte(digits.substr(at, 2)); };
-  const auto red = sized ? channel(0) : std::nullopt, green = sized ? channel(2) : std::nullopt,
-             blue = sized ? channel(4) : std::nullopt,
-             alpha = digits.size() == 8 ? channel(6) : std::optional<std::uint8_t>(255);
-  if (!red || !green || !blue || !alpha) refuse("--background", text, "none, rrggbb or rrggbbaa");
-  return Rgba{*red, *green, *blue, *alpha};
+  const auto color = hexadecimal_color(text);
+  if (!color) refuse("--background", text, "none, rrggbb or rrggbbaa");
+  return color;
+}
+
+LayerStyle parse_layer_color(std::string_view text) {
+  constexpr std::string_view kOption = "--color";
+  const auto [layer, value] = layer_and_value(text, kOption, "LAYER=rrggbb");
+  const auto color = hexadecimal_color(value);
+  if (!color || color->alpha != 255) refuse(kOption, value, "rrggbb");
+  return {layer, color, std::nullopt};
+}
+
+LayerStyle parse_layer_width(std::string_view text) {
+  constexpr std::string_view kOption = "--line-width";
+  constexpr double kWidest = 64;
+  const auto [layer, value] = layer_and_value(text, kOption, "LAYER=PIXELS");
+  const double width = parse_positive(value, kOption);
+  if (width > kWidest) refuse(kOption, value, fmt::format("at most {} pixels", kWidest));
+  return {layer, std::nullopt, width};
+}
+
+double parse_unit(std::string_view text, std::string_view option) {
+  const auto metres = metres_of(text);
+  if (!metres) refuse(option, text, "one of " + unit_symbols());
+  return *metres;
 }
 
 std::vector<std::string_view> split_commas(std::string_view text) {
@@ -143,12 +185,14 @@ std::vector<std::pair<std::size_t, std::size_t>> parse_ranges(std::string_view t
   return ranges;
 }
 
-std::string fill_template(std::string_view name, const std::string& input, std::size_t number) {
+std::string fill_template(std::string_view name, const std::string& input, std::size_t number,
+                          std::string_view view) {
   const std::filesystem::path path = input == "-" ? "stdin" : input;
   const std::pair<std::string_view, std::string> fields[] = {
       {"{stem}", path.stem().string()},
       {"{dir}", path.has_parent_path() ? path.parent_path().string() : "."},
-      {"{n}", fmt::format("{}", number)}};
+      {"{n}", fmt::format("{}", number)},
+      {"{view}", std::string(view)}};
   std::string out;
   while (!name.empty()) {
     bool replaced = false;

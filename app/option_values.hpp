@@ -12,6 +12,7 @@
 #include "meshcontour/error.hpp"
 #include "meshcontour/report.hpp"
 #include "meshcontour/simplification.hpp"
+#include "meshcontour/units.hpp"
 
 namespace meshcontour::app {
 
@@ -43,6 +44,16 @@ void parse_simplification(std::string_view text, SimplifyOptions& options);
 
 /// "1280x960"
 std::pair<int, int> parse_size(std::string_view text);
+
+/// "edges=ff0000": a layer and its colour; "edges=2.5": a layer and the width of its lines in pixels, up to 64.
+LayerStyle parse_layer_color(std::string_view text);
+LayerStyle parse_layer_width(std::string_view text);
+
+/// The symbols of all units, with commas.
+std::string unit_symbols();
+
+/// The metres of a unit's symbol.
+double parse_unit(std::string_view text, std::string_view option);
 
 /// "none", "rrggbb" or "rrggbbaa", with or without '#'.
 std::optional<Rgba> parse_background(std::string_view text);
@@ -84,8 +95,9 @@ std::string join_words(const std::vector<T>& values, const Choices<T, N>& choice
   return out;
 }
 
-/// The output's name with {stem}, {dir} and {n} filled in: the input's name without folder and extension, its folder,
-/// its number.
-std::string fill_template(std::string_view name, const std::string& input, std::size_t number);
+/// The output's name with {stem}, {dir}, {n} and {view} filled in: the input's name without folder and extension, its
+/// folder, its number, the picture's view.
+std::string fill_template(std::string_view name, const std::string& input, std::size_t number,
+                          std::string_view view);
 
 }  // namespace meshcontour::app

@@ -20,8 +20,10 @@ void describe(const Run& run, const FileJob& job, const CommandLine& line, Outco
     const bool warning = diagnostic.severity == Diagnostic::Severity::Warning;
     report.warnings += warning ? 1 : 0;
     if (report.findings.size() < kMostFindings) report.findings.push_back(diagnostic.text());
-    if (line.verbosity >= (warning ? 0 : 1))
-      outcome.errors += fmt::format("meshcontour: {}\n", diagnostic.text());
+    if (line.verbosity >= (warning ? 0 : 1)) {
+      outcome.errors += message_line(warning ? MessageKind::Warning : MessageKind::Notice, diagnostic.text(),
+                                     diagnostic.spot, line.messages);
+    }
   }
   if (run.diagnostics.size() > kMostFindings) {
     report.findings.push_back(fmt::format("and {} more", run.diagnostics.size() - kMostFindings));
@@ -67,16 +69,17 @@ class Pages {
 
 }  // namespace
 
-void fail(ErrorCode code, const std::string& message, Outcome& outcome) {
+void fail(ErrorCode code, const std::string& message, const Spot& spot, const CommandLine& line, Outcome& outcome) {
   outcome.report.outcome = FileReport::Outcome::Failed;
   outcome.report.exit_code = static_cast<int>(code);
   outcome.report.message = message;
-  outcome.errors += fmt::format("meshcontour: {}\n", message);
+  outcome.errors += message_line(MessageKind::Error, message, spot, line.messages);
 }
 
 Outcome run_job(const FileJob& job, const CommandLine& line) {
   Outcome outcome;
   outcome.report.file = job.input;
+  const Spot input{job.input, 0, 0, ""};
   try {
     Pages pages(job);
     run_repeatedly(job, line, outcome);
@@ -85,13 +88,14 @@ Outcome run_job(const FileJob& job, const CommandLine& line) {
     const auto is_page = [](const auto& report) { return report.first == ReportFormat::Html; };
     if (std::ranges::none_of(line.reports, is_page)) outcome.report.preview = {};
   } catch (const Error& error) {
-    const std::string input = error.spot().file.empty() ? printable(job.input) + ": " : "";
-    fail(error.code(), input + error.what(), outcome);
+    const bool placed = !error.spot().file.empty();
+    const std::string prefix = placed ? "" : printable(job.input) + ": ";
+    fail(error.code(), prefix + error.what(), placed ? error.spot() : input, line, outcome);
   } catch (const std::bad_alloc&) {
-    fail(ErrorCode::OutOfMemory, printable(job.input) + ": out of memory", outcome);
+    fail(ErrorCode::OutOfMemory, printable(job.input) + ": out of memory", input, line, outcome);
   } catch (const std::exception& error) {
-    fail(ErrorCode::Internal, fmt::format("{}: internal error: {}", printable(job.input), error.what()),
-         outcome);
+    fail(ErrorCode::Internal, fmt::format("{}: internal error: {}", printable(job.input), error.what()), input,
+         line, outcome);
   }
   outcome.report.peak_memory = peak_memory();
   return outcome;

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "command_line.hpp"
+#include "file_job.hpp"
 #include "meshcontour/report.hpp"
 
 namespace meshcontour::app {
@@ -18,7 +18,7 @@ struct Outcome {
 Outcome run_job(const FileJob& job, const CommandLine& line);
 
 /// Makes the outcome a failure and adds the message to what is printed.
-void fail(ErrorCode code, const std::string& message, Outcome& outcome);
+void fail(ErrorCode code, const std::string& message, const Spot& spot, const CommandLine& line, Outcome& outcome);
 
 /// An outcome as bytes, to go from a worker to its parent, and back.
 std::string to_bytes(const Outcome& outcome);

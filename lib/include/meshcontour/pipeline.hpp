@@ -25,6 +25,7 @@ namespace meshcontour {
 struct OutputRequest {
   std::string path;  ///< "-": standard output
   OutputFormat format = OutputFormat::Json;
+  std::optional<View> view = std::nullopt;  ///< of a picture; else the job's
 };
 
 /// One file to write the mesh to.
@@ -47,6 +48,8 @@ struct Job {
   std::vector<OutputRequest> outputs;
   std::vector<MeshRequest> meshes;
   ReadOptions read;
+  double input_unit = 0;  ///< metres per unit of the input, whatever it tells; 0: as it tells
+  double unit = 0;        ///< metres per unit of everything after reading; 0: the input's
   bool repair = false;  ///< cut the surface apart where it is no manifold
   SegmentOptions segment;
   PatchSelection selection;

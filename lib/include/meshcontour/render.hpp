@@ -24,6 +24,15 @@ enum class Layer {
   Annotations,  ///< line drawings that come with the model
   Tree,         ///< Model::tree: spanning trees of the patches
   Path,         ///< Model::path: the shortest path between two vertices
+  Axes,         ///< the directions of x, y and z in the lower left corner, over everything else
+  Scale,        ///< a bar of a round length in the lower right corner, over everything else; not in View::Report
+};
+
+/// Another look of a layer than its own.
+struct LayerStyle {
+  Layer layer = Layer::Edges;
+  std::optional<Rgba> color;    ///< of everything in it, opaque
+  std::optional<double> width;  ///< of its lines, or its points' diameter: pixels of the picture, up to 64
 };
 
 /// From where the model is seen, with Z up. Front looks along +Y with X to the right, right looks along -X with
@@ -53,6 +62,7 @@ struct RenderOptions {
   UpAxis up = UpAxis::Z;  ///< of no meaning to View::Report
   std::optional<Rgba> background = Rgba{255, 255, 255, 255};  ///< none: transparent
   ColorBy color_by = ColorBy::File;
+  std::vector<LayerStyle> styles;  ///< later ones win
   GlBackend backend = GlBackend::Automatic;  ///< Automatic: OSMesa, or EGL where that is missing
   unsigned threads = 0;  ///< 0: one per processor; for the rasterizer the process's first call rules
 };
@@ -69,7 +79,7 @@ struct Image {
 /// used.
 ///
 /// @param boundaries, contours  may be empty when no layer needs them.
-/// @throws Error  Usage if the size is out of range; NoRenderer if no context can be made or its self-test
+/// @throws Error  Usage if the size or a width is out of range, or the layer Scale is asked for in perspective; NoRenderer if no context can be made or its self-test
 ///                fails; OutOfMemory if the picture needs more memory than there is, or the rasterizer runs
 ///                out of it; BadData if the model is too large for numbers (beyond 1e150), or if nothing
 ///                would show.

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 
 #include "meshcontour/cleaning.hpp"
 #include "meshcontour/graph.hpp"
 #include "meshcontour/output.hpp"
+#include "meshcontour/units.hpp"
 #include "meshcontour/wavelet.hpp"
 #include "pipeline/preview.hpp"
 #include "pipeline/selection.hpp"
@@ -17,6 +19,10 @@ namespace {
 
 constexpr std::string_view extractor_name(Extractor extractor) {
   return extractor == Extractor::Sorted ? "sorted" : "halfedge";
+}
+
+View view_of(const Job& job, const OutputRequest& output) {
+  return output.view.value_or(job.render.view);
 }
 
 // The outputs of a job, opened before any work is done.
@@ -36,16 +42,18 @@ class Targets {
     for (Sink* sink : wavelets_) sink->write(stream.text);
   }
 
-  void write(Run& run, const std::vector<std::uint8_t>& png) {
+  void write(Run& run, const std::map<View, std::string>& pictures) {
     Result result{run.model, run.boundaries, run.contours, extractor_name(job_.boundary.extractor),
                   run.diagnostics};
     if (job_.timings_in_json) result.timings = run.timings.stages();
     std::vector<Diagnostic> notes;
     for (std::size_t i = 0; i < outputs_.size(); ++i) {
       if (job_.outputs[i].format == OutputFormat::Png) {
-        outputs_[i]->write({reinterpret_cast<const char*>(png.data()), png.size()});
+        outputs_[i]->write(pictures.at(view_of(job_, job_.outputs[i])));
       } else {
-        write_output(job_.outputs[i].format, result, job_.write, *outputs_[i], notes);
+        WriteOptions options = job_.write;
+        options.view = view_of(job_, job_.outputs[i]);
+        write_output(job_.outputs[i].format, result, options, *outputs_[i], notes);
       }
     }
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
@@ -113,6 +121,8 @@ void prepare_model(const Job& job, Targets& targets, Run& run) {
     ReadOptions options = job.read;
     options.net.mend = options.net.mend || job.repair;
     run.model = read_model(input_name(job), options);
+    if (job.input_unit > 0) run.model.metres_per_unit = job.input_unit;
+    if (job.unit > 0) convert_units(run.model, job.unit);
     if (job.repair) repair_model(run.model, job.segment.threads);
   });
   run.timings.count("read", counts_of(run.model, {}, {}).triangles);
@@ -178,13 +188,22 @@ void find_contours(const Job& job, Run& run) {
   run.timings.count("fit", counts.loops + counts.open_chains);
 }
 
-std::vector<std::uint8_t> draw(const Job& job, Run& run) {
-  const auto is_picture = [](const OutputRequest& output) { return output.format == OutputFormat::Png; };
-  if (std::ranges::none_of(job.outputs, is_picture)) return {};
-  const Image image = run.timings.measure(
-      "render", [&] { return render(run.model, run.boundaries, run.contours, job.render); });
-  run.timings.count("render", counts_of(run.model, {}, {}).triangles);
-  return run.timings.measure("write", [&] { return encode_png(image); });
+// The PNG of every view that an output shows.
+std::map<View, std::string> draw(const Job& job, Run& run) {
+  std::map<View, std::string> pictures;
+  for (const OutputRequest& output : job.outputs) {
+    RenderOptions options = job.render;
+    options.view = view_of(job, output);
+    if (output.format != OutputFormat::Png || pictures.contains(options.view)) continue;
+    const Image image = run.timings.measure(
+        "render", [&] { return render(run.model, run.boundaries, run.contours, options); });
+    run.timings.measure("write", [&] {
+      const std::vector<std::uint8_t> png = encode_png(image);
+      pictures.emplace(options.view, std::string(png.begin(), png.end()));
+    });
+  }
+  if (!pictures.empty()) run.timings.count("render", pictures.size() * counts_of(run.model, {}, {}).triangles);
+  return pictures;
 }
 
 }  // namespace
@@ -195,9 +214,9 @@ Run run(const Job& job) {
   prepare_model(job, targets, run);
   find_contours(job, run);
   name_file(job, run);
-  const std::vector<std::uint8_t> png = draw(job, run);
+  const std::map<View, std::string> pictures = draw(job, run);
   if (job.preview) run.timings.measure("preview", [&] { run.preview = detail::make_preview(job, run); });
-  run.timings.measure("write", [&] { targets.write(run, png); });
+  run.timings.measure("write", [&] { targets.write(run, pictures); });
   name_file(job, run);
   run.timings.count("write", job.outputs.size() + job.meshes.size() + job.wavelets.size());
   return run;

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include "base/text_cursor.hpp"
+#include "meshcontour/units.hpp"
 #include "read/xml_words.hpp"
 
 namespace meshcontour::detail {
@@ -133,25 +133,10 @@ class Placer {
 
 // The factor of a unit attribute, e.g. "mm 0.001000". Six decimals only: small units print as zero, so that
 // known names count more.
-std::optional<double> metres_of(std::string_view unit) {
-  struct Known {
-    std::string_view name;
-    double metres;
-  };
-  constexpr std::array<Known, 10> kKnown = {{{"nm", 1e-9},
-                                             {"um", 1e-6},
-                                             {"mm", 1e-3},
-                                             {"cm", 1e-2},
-                                             {"dm", 1e-1},
-                                             {"m", 1},
-                                             {"km", 1e3},
-                                             {"in", 0.0254},
-                                             {"ft", 0.3048},
-                                             {"mil", 2.54e-5}}};
+std::optional<double> unit_metres(std::string_view unit) {
   const auto words = xml_words(unit);
   if (words.empty()) return std::nullopt;
-  const auto known = std::ranges::find(kKnown, words[0], &Known::name);
-  if (known != kKnown.end()) return known->metres;
+  if (const auto known = metres_of(words[0])) return known;
   const auto factor = words.size() > 1 ? parse_number(words[1]) : std::nullopt;
   return factor && *factor > 0 ? factor : std::nullopt;
 }
@@ -194,7 +179,7 @@ double model_unit(const WebxmlGraph& graph, WebxmlFile& file) {
   for (const std::size_t s : order) {
     const WebxmlShape& shape = file.document.shapes[s];
     if (shape.unit.empty()) continue;
-    const auto metres = metres_of(shape.unit);
+    const auto metres = unit_metres(shape.unit);
     const auto spot = [&] {
       return Spot{file.name, file.outline.digest.line(shape.digest_line), 0, element_text("shape", shape.id)};
     };

@@ -137,6 +137,12 @@ float widest(const Scene& scene) {
   return size;
 }
 
+void draw_batches(const Scene& scene, std::size_t first, std::size_t end, const std::vector<Range>& chords) {
+  for (std::size_t i = first; i < end; ++i) draw_batch(scene, scene.batches[i], chords[i]);
+  glFinish();
+  check_gl("drawing");
+}
+
 void draw_tile(const Scene& scene, const Tile& tile, const std::vector<Range>& chords) {
   glViewport(0, 0, tile.full_width(), tile.full_height());
   glMatrixMode(GL_PROJECTION);
@@ -146,9 +152,13 @@ void draw_tile(const Scene& scene, const Tile& tile, const std::vector<Range>& c
   glClearColor(static_cast<GLfloat>(color[0]), static_cast<GLfloat>(color[1]), static_cast<GLfloat>(color[2]),
                static_cast<GLfloat>(color[3]));
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  for (std::size_t i = 0; i < scene.batches.size(); ++i) draw_batch(scene, scene.batches[i], chords[i]);
-  glFinish();
-  check_gl("drawing");
+  draw_batches(scene, 0, scene.model_batches, chords);
+}
+
+// What lies over the model, and whether there was anything.
+bool draw_legend(const Scene& scene, const std::vector<Range>& chords) {
+  draw_batches(scene, scene.model_batches, scene.batches.size(), chords);
+  return scene.model_batches < scene.batches.size();
 }
 
 // The last picture's framebuffer serves the next of its size: most of a small picture's time goes into fresh
@@ -200,6 +210,7 @@ bool draw_scene(Scene& scene, int largest_tile, NurbsTessellator& tessellator, I
       draw_tile(scene, {left, bottom, width, height, margin}, chords);
       const Readback part{left / 2, bottom / 2, width / 2, height / 2, margin, scene.background};
       something = average_into(image, part) || something;
+      if (draw_legend(scene, chords)) average_into(image, part);
     }
   }
   return something;

@@ -225,7 +225,7 @@ struct LayerRow {
   void (*add)(const Drawing&, Scene&);
 };
 
-constexpr std::array<LayerRow, 11> kLayers = {{{Layer::Mesh, add_mesh},
+constexpr std::array<LayerRow, 13> kLayers = {{{Layer::Mesh, add_mesh},
                                               {Layer::Detail, add_detail},
                                               {Layer::Edges, add_edges},
                                               {Layer::Curves, add_curves},
@@ -235,7 +235,9 @@ constexpr std::array<LayerRow, 11> kLayers = {{{Layer::Mesh, add_mesh},
                                               {Layer::Frames, add_frames},
                                               {Layer::Annotations, add_annotations},
                                               {Layer::Tree, add_tree},
-                                              {Layer::Path, add_path}}};
+                                              {Layer::Path, add_path},
+                                              {Layer::Axes, add_axes},
+                                              {Layer::Scale, add_scale}}};
 
 }  // namespace
 
@@ -263,6 +265,10 @@ void append(Scene& scene, Batch&& batch, const std::vector<Vertex>& vertices) {
 Vertex flat_vertex(const LocalFrame& frame, const Point& p, const Rgba& color) {
   const Eigen::Vector3f local = frame.local(p);
   return {.position = {local.x(), local.y(), local.z()}, .color = color};
+}
+
+bool is_legend(Layer layer) {
+  return layer == Layer::Axes || layer == Layer::Scale;
 }
 
 Rgba patch_line_color(const Drawing& drawing, std::size_t shell, std::size_t patch) {

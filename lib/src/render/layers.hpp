@@ -32,6 +32,11 @@ void add_layer(const Drawing& drawing, Layer layer, Scene& scene);
 void add_curves(const Drawing& drawing, Scene& scene);
 void add_control(const Drawing& drawing, Scene& scene);
 void add_frames(const Drawing& drawing, Scene& scene);
+void add_axes(const Drawing& drawing, Scene& scene);
+void add_scale(const Drawing& drawing, Scene& scene);
+
+/// Whether a layer tells how to read the picture instead of showing the model.
+bool is_legend(Layer layer);
 
 /// The length at which the axes of curve frames are drawn, model units; 0 when the model has none.
 double frame_axis_length(const Model& model);

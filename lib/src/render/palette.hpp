@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "meshcontour/render.hpp"
 
 namespace meshcontour::detail {
@@ -9,7 +11,8 @@ Rgba mixed(const Rgba& color, const Rgba& other, double share);
 
 /// The colours of lines and points.
 struct Palette {
-  Rgba mesh, edges, curves, wireframe, points, control, knots, annotations, tree, path;
+  Rgba mesh, edges, curves, wireframe, points, control, knots, annotations, tree, path, scale;
+  std::array<Rgba, 3> axes;  ///< x, y, z
 };
 
 /// Colours that can be told from one another and from the background.

@@ -14,6 +14,7 @@ namespace detail {
 namespace {
 
 constexpr int kLargestSide = 16384;
+constexpr double kWidestLine = 64;  // pixels
 constexpr std::size_t kQuickTriangles = 200'000;  // above, compiling shaders well pays
 
 void check(const Model& model, std::span<const ShellBoundary> boundaries, const RenderOptions& options) {
@@ -21,6 +22,15 @@ void check(const Model& model, std::span<const ShellBoundary> boundaries, const 
       options.height > kLargestSide) {
     throw Error(ErrorCode::Usage, fmt::format("a picture of {} x {} pixels: both must be 1 to {}",
                                               options.width, options.height, kLargestSide));
+  }
+  for (const LayerStyle& style : options.styles) {
+    if (style.width && !(*style.width > 0 && *style.width <= kWidestLine)) {
+      throw Error(ErrorCode::Usage, fmt::format("a line of {} pixels: up to {}", *style.width, kWidestLine));
+    }
+  }
+  const bool has_scale = std::ranges::find(options.layers, Layer::Scale) != options.layers.end();
+  if (has_scale && options.view == View::Report) {
+    throw Error(ErrorCode::Usage, "the layer scale needs a view without perspective: every one but report");
   }
   if (!boundaries.empty() && boundaries.size() != model.shells.size()) {
     throw Error(ErrorCode::Internal, "the boundaries are not those of the model");
@@ -39,7 +49,7 @@ std::size_t drawn_triangles(const Model& model) {
 
 [[noreturn]] void refuse_blank(const Scene& scene) {
   throw Error(ErrorCode::BadData,
-              scene.batches.empty()
+              scene.model_batches == 0
                   ? "the picture would be blank: the layers asked for have nothing to draw"
                   : "the picture would be blank: all that is drawn lies outside the view, is smaller than a "
                     "pixel or has the background's colour");

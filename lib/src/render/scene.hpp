@@ -69,9 +69,10 @@ struct Scene {
   Eigen::Matrix4d projection;          ///< eye to clip coordinates
   std::array<double, 4> background{};  ///< red, green, blue times alpha; alpha; all 0 to 1
   std::vector<std::vector<Placement>>
-      frames;                    ///< a shell's, and the last for what is given in the model's frame
+      frames;                    ///< a shell's, the model's own, and the last for pixels of the picture
   std::vector<Vertex> vertices;  ///< of all batches
   std::vector<Batch> batches;    ///< in drawing order
+  std::size_t model_batches = 0;  ///< the first of these show the model, the rest only how to read the picture
 };
 
 }  // namespace meshcontour::detail

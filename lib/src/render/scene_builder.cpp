@@ -125,6 +125,33 @@ std::array<double, 4> premultiplied(const std::optional<Rgba>& color) {
   return {color->red / 255.0 * alpha, color->green / 255.0 * alpha, color->blue / 255.0 * alpha, alpha};
 }
 
+// Pixels from the lower left corner, right before the viewer.
+Placement picture_placement(const Scene& scene) {
+  constexpr double kNear = -0.999;
+  Eigen::Matrix4d to_clip = Eigen::Matrix4d::Identity();
+  to_clip.diagonal() << 2.0 / scene.width, 2.0 / scene.height, -1e-3, 1;
+  to_clip.topRightCorner<3, 1>() << -1, -1, kNear;
+  return {scene.projection.inverse() * to_clip, false};
+}
+
+void apply(const LayerStyle& style, std::size_t first_batch, Scene& scene) {
+  for (std::size_t b = first_batch; b < scene.batches.size(); ++b) {
+    Batch& batch = scene.batches[b];
+    if (style.width && batch.kind != Batch::Kind::Triangles) batch.size = static_cast<float>(*style.width);
+    if (!style.color) continue;
+    for (std::size_t v = batch.first; v < batch.first + batch.count; ++v) scene.vertices[v].color = *style.color;
+    for (CurveRun& run : batch.runs) run.color = *style.color;
+  }
+}
+
+void add_styled_layer(const Drawing& drawing, Layer layer, Scene& scene) {
+  const std::size_t first_batch = scene.batches.size();
+  add_layer(drawing, layer, scene);
+  for (const LayerStyle& style : drawing.options.styles) {
+    if (style.layer == layer) apply(style, first_batch, scene);
+  }
+}
+
 }  // namespace
 
 Scene build_scene(const Model& model, std::span<const ShellBoundary> boundaries,
@@ -143,10 +170,15 @@ Scene build_scene(const Model& model, std::span<const ShellBoundary> boundaries,
     scene.frames[instance.shell].push_back(place(drawing.camera, frame, instance.placement));
   }
   scene.frames.back().push_back(place(drawing.camera, drawing.frames.back(), Eigen::Affine3d::Identity()));
+  scene.frames.push_back({picture_placement(scene)});
   constexpr double kLayerStep = 1e-4;  // eye units: a fraction of a pixel
   for (const Layer layer : options.layers) {
     drawing.bias += kLayerStep;
-    add_layer(drawing, layer, scene);
+    if (!is_legend(layer)) add_styled_layer(drawing, layer, scene);
+  }
+  scene.model_batches = scene.batches.size();
+  for (const Layer layer : options.layers) {
+    if (is_legend(layer)) add_styled_layer(drawing, layer, scene);
   }
   return scene;
 }
