@@ -59,6 +59,17 @@ Outcome lost_outcome(const FileJob& job, const TaskResult& result, const Command
   return outcome;
 }
 
+// What a worker answered; an answer that cannot be read is no reason to lose the other files.
+Outcome outcome_of(const FileJob& job, const TaskResult& result, const CommandLine& line) try {
+  return result.end == TaskResult::End::Done ? from_bytes(result.payload) : lost_outcome(job, result, line);
+} catch (const std::exception& error) {
+  Outcome outcome;
+  outcome.report.file = job.input;
+  fail(ErrorCode::Internal, fmt::format("{}: internal error: {}", printable(job.input), error.what()),
+       {job.input, 0, 0, ""}, line, outcome);
+  return outcome;
+}
+
 // Takes outcomes as they come, prints them in the order of the inputs and keeps their reports.
 class Collector {
  public:
@@ -127,8 +138,7 @@ void run_jobs(std::vector<FileJob> jobs, const CommandLine& line, Collector& col
       [&](std::size_t task) { return to_bytes(run_job(jobs[open[task]], line)); },
       [&](std::size_t task, const TaskResult& result) {
         const std::size_t job = open[task];
-        collector.take(job, result.end == TaskResult::End::Done ? from_bytes(result.payload)
-                                                                : lost_outcome(jobs[job], result, line));
+        collector.take(job, outcome_of(jobs[job], result, line));
       });
 }
 

@@ -22,12 +22,14 @@ def collect(program, samples, work):
     """A sample of every format: the mesh formats as the program writes them."""
     small = samples / "assembly/shell_id32.xml"
     paths = [samples / "stud.xml", small, *sorted((samples / "samples/swp").glob("*.swp"))]
-    for kind in ("stl", "obj", "ply", "off"):
+    for kind in ("stl", "obj", "ply", "off", "net"):
         for text in ([], ["--mesh-text"]) if kind in ("stl", "ply") else ([],):
             path = work / f"mesh{len(text)}.{kind}"
             subprocess.run([program, "-q", small, "--save-mesh", path, *text], check=True)
             paths.append(path)
-    return paths
+    stream = work / "stream.mcw"
+    subprocess.run([program, "-q", work / "mesh0.off", "--subdivide", "1", "--save-wavelet", stream], check=True)
+    return [*paths, stream]
 
 
 def prefixes(content, count):

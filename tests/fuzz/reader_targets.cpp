@@ -3,7 +3,10 @@
 #include <string>
 
 #include "fuzz/targets.hpp"
+#include "meshcontour/mesh_write.hpp"
+#include "meshcontour/output.hpp"
 #include "meshcontour/read.hpp"
+#include "multires/stream_blocks.hpp"
 #include "read/webxml.hpp"
 #include "unit/read/webxml_text.hpp"
 
@@ -72,6 +75,41 @@ void read_ply(Bytes input) {
 
 void read_off(Bytes input) {
   read_named(input, "m.off");
+}
+
+// What was read is written and read again: the same, and written the same.
+void read_net(Bytes input) {
+  const ReadOptions options = limits();
+  const auto written = [&](std::string_view text) {
+    StringSink sink;
+    std::vector<Diagnostic> notes;
+    write_mesh(MeshFormat::Net, read_model(text, "m.net", options), {}, sink, notes);
+    return sink.text;
+  };
+  try {
+    const std::string once = written(text_of(input));
+    require(written(once) == once, "a control mesh changes when it is written and read again");
+  } catch (const Error& error) {
+    require(error.code() != ErrorCode::Internal, error.what());
+  }
+}
+
+// The blocks of a stream before they are compressed, each behind its kind and a length of two bytes, as no mutation
+// gets past compression and checksums. An input that begins like a stream is taken as it is.
+void read_wavelet(Bytes input) {
+  std::string_view rest = text_of(input);
+  if (rest.starts_with(detail::kStreamSignature)) return read_named(input, "m.mcw");
+  StringSink stream;
+  detail::BlockWriter blocks(stream);
+  while (rest.size() >= 3) {
+    const auto kind = static_cast<detail::BlockKind>(rest[0]);
+    if (kind == detail::BlockKind::End) blocks.end();
+    const std::size_t size = static_cast<std::uint8_t>(rest[1]) + 256u * static_cast<std::uint8_t>(rest[2]);
+    rest.remove_prefix(3);
+    blocks.write(kind, rest.substr(0, size));
+    rest.remove_prefix(std::min(size, rest.size()));
+  }
+  read_named({reinterpret_cast<const std::uint8_t*>(stream.text.data()), stream.text.size()}, "m.mcw");
 }
 
 }  // namespace fuzz

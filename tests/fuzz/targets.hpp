@@ -50,8 +50,11 @@ void read_stl(Bytes input);
 void read_obj(Bytes input);
 void read_ply(Bytes input);
 void read_off(Bytes input);
+void read_net(Bytes input);
+void read_wavelet(Bytes input);
 void scan_numbers(Bytes input);
 void trace_loops(Bytes input);
 void fit_loop(Bytes input);
+void evaluate_nurbs(Bytes input);
 
 }  // namespace fuzz

@@ -23,9 +23,11 @@ def prepare(folder, root):
 
 def outputs(words, folder):
     names = [words[i + 1] for i, word in enumerate(words[:-1]) if word in ("-o", "--save-mesh", "--report")]
+    views = dict(zip(words, words[1:])).get("--view", "iso").split(",")
     for name in names:
         name = name.split(":", 1)[-1]
-        yield from [name.format(stem=stem, dir="parts", n=n) for n, stem in ((1, "first"), (2, "second"))]
+        yield from [name.format(stem=stem, dir="parts", n=n, view=view)
+                    for n, stem in ((1, "first"), (2, "second")) for view in views]
 
 
 def main():

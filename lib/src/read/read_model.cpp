@@ -1,5 +1,8 @@
 #include "meshcontour/read.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -26,8 +29,47 @@ void warn_of_flat_shells(Model& model, const std::string& file) {
                            findings.diagnostics().end());
 }
 
+// Squares and products of lengths stay finite below it.
+constexpr double kLargest = 1e150;
+
+bool in_range(const Box& box) {
+  return box.isEmpty() || ((box.min().array() >= -kLargest).all() && (box.max().array() <= kLargest).all());
+}
+
+[[noreturn]] void refuse_vertex(const Shell& shell, const std::string& file) {
+  const auto beyond = [](const Point& p) { return !(p.cwiseAbs().maxCoeff() <= kLargest); };
+  const auto found = std::ranges::find_if(shell.points, beyond);
+  throw Error(ErrorCode::BadData,
+              fmt::format("vertex {} has the coordinate {}, the limit is {}", found - shell.points.begin(),
+                          found->cwiseAbs().maxCoeff(), kLargest),
+              {file, 0, 0, "shell " + printable(shell.id, 80)});
+}
+
+void check_range(const Model& model, const std::string& file) {
+  std::vector<Box> boxes;
+  for (const Shell& shell : model.shells) {
+    Box& box = boxes.emplace_back();
+    for (const Point& p : shell.points) box.extend(p);
+    if (!in_range(box)) refuse_vertex(shell, file);
+  }
+  for (const Instance& instance : model.instances) {
+    if (boxes[instance.shell].isEmpty() || in_range(boxes[instance.shell].transformed(instance.placement))) continue;
+    throw Error(ErrorCode::BadData, fmt::format("a part is placed beyond {}, the limit of coordinates", kLargest),
+                {file, 0, 0, "shell " + printable(model.shells[instance.shell].id, 80)});
+  }
+  for (const Polyline& line : model.annotations) {
+    Box box;
+    for (const Point& p : line.points) box.extend(p);
+    if (!in_range(box)) {
+      throw Error(ErrorCode::BadData, fmt::format("it lies beyond {}, the limit of coordinates", kLargest),
+                  {file, 0, 0, "annotation " + printable(line.name, 80)});
+    }
+  }
+}
+
 Model checked(Model model, const ReadContext& context) {
   validate(model);
+  check_range(model, context.name);
   warn_of_flat_shells(model, context.name);
   if (context.options.strict) {
     for (const Diagnostic& diagnostic : model.diagnostics) {
