@@ -164,6 +164,51 @@ void CollapseMesh::collapse(Index h, Index removed, const Point& position) {
   points_[kept] = position;
 }
 
+bool CollapseMesh::can_flip(Index h) {
+  if (is_sharp(h)) return false;
+  for (const Index v : {start(h), end(h)}) {
+    if (valences_[v] < (on_border_[v] ? 3 : 4)) return false;  // it loses an edge
+  }
+  const Index tip = start(previous(h)), across = start(previous(twins_[h]));
+  if (tip == across) return false;
+  outgoing(tip, ring_);
+  return std::ranges::none_of(
+      ring_, [&](Index g) { return end(g) == across || start(previous(g)) == across; });
+}
+
+void CollapseMesh::flip(Index h) {
+  const Index g = twins_[h], u = start(h), v = end(h), tip = start(previous(h)), across = start(previous(g));
+  --valences_[u];
+  --valences_[v];
+  ++valences_[tip];
+  ++valences_[across];
+  // What lay between v and the tip, u and the tip across, and that and v goes to other halfedges.
+  const std::array<std::pair<Index, Index>, 3> moves = {
+      {{next(h), next(g)}, {next(g), h}, {previous(g), g}}};
+  std::array<Index, 3> twins{};
+  std::array<std::uint8_t, 3> sharp{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    twins[i] = twins_[moves[i].first];
+    sharp[i] = sharp_[moves[i].first];
+  }
+  corners_[h] = u;
+  corners_[next(h)] = corners_[g] = across;
+  corners_[previous(h)] = corners_[previous(g)] = tip;
+  corners_[next(g)] = v;
+  for (std::size_t i = 0; i < 3; ++i) {
+    twins_[moves[i].second] = twins[i];
+    sharp_[moves[i].second] = sharp[i];
+    if (twins[i] != kNone) twins_[twins[i]] = moves[i].second;
+  }
+  twins_[next(h)] = previous(g);
+  twins_[previous(g)] = next(h);
+  sharp_[next(h)] = sharp_[previous(g)] = 0;
+  leaving_[u] = h;
+  leaving_[v] = next(g);
+  leaving_[tip] = previous(h);
+  leaving_[across] = g;
+}
+
 // A vertex that is left, by its point; the fans around one point share its place.
 std::vector<Index> CollapseMesh::vertices_by_origin(std::size_t points) const {
   std::vector<Index> vertices(points, kNone);

@@ -41,6 +41,8 @@ class CollapseMesh {
   std::size_t halfedge_count() const { return corners_.size(); }
   std::size_t triangle_count() const { return triangle_count_; }
   std::uint32_t valence(Index v) const { return valences_[v]; }
+  /// The point of the shell that a vertex was at the beginning.
+  Index origin(Index v) const { return origin_[v]; }
 
   /// The halfedges that leave a vertex, counter-clockwise, from the border on where there is one.
   void outgoing(Index v, std::vector<Index>& halfedges) const;
@@ -52,6 +54,13 @@ class CollapseMesh {
   /// Merges the ends of an edge at `position`; `removed` is one of them. The number of dead triangles is 1
   /// or 2.
   void collapse(Index h, Index removed, const Point& position);
+
+  /// Whether an edge can be turned within its two triangles, so that it joins their tips, as far as topology
+  /// goes.
+  bool can_flip(Index h);
+
+  /// Turns it: h runs from its old start to the tip across, the triangle's next halfedge along the new edge.
+  void flip(Index h);
 
   /// The shell that remains, with points in their old order; names and colours are those of `before`, from
   /// which the mesh was made.

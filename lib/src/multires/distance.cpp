@@ -16,6 +16,7 @@ using detail::TriangleTree;
 
 constexpr double kSlack = 0.02;       // a bound so close above the largest distance seen is good enough
 constexpr double kResolution = 1e-7;  // of the size: distances below need not be told apart
+constexpr int kMostCuts = 8;          // of a part in a row; rounding can make two triangles cut it for ever
 constexpr std::size_t kGrain = 256;
 
 using Polygon = std::vector<Point>;  // convex
@@ -24,6 +25,7 @@ using Polygon = std::vector<Point>;  // convex
 struct Part {
   Polygon polygon;
   std::optional<Index> cut_by = {};  // the triangle beyond one of whose sides it lies
+  int cuts = 0;                      // since it was halved
 };
 
 Point centre_of(const Polygon& polygon) {
@@ -116,21 +118,21 @@ class Overlay {
     if (accepts(bound)) return;
     if (radius <= resolution_) {
       distance_.upper = std::max(distance_.upper, bound);
-    } else if (whole.cut_by == hit.triangle || !clip(part, hit.triangle)) {
+    } else if (whole.cut_by == hit.triangle || whole.cuts == kMostCuts || !clip(whole, hit.triangle)) {
       halve(part, centre);
     }
   }
 
   // Cuts off what lies beyond the sides of the triangle; false if that is nothing or everything.
-  bool clip(const Polygon& part, Index number) {
+  bool clip(const Part& part, Index number) {
     const Corners& triangle = tree_.corners(number);
     const Vector normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
-    Polygon inside = part;
+    Polygon inside = part.polygon;
     std::vector<Part> outside;
     for (std::size_t k = 0; k < 3 && !inside.empty(); ++k) {
       auto [in, out] = split(inside, triangle[k], normal.cross(triangle[(k + 1) % 3] - triangle[k]));
       inside = std::move(in);
-      if (!out.empty()) outside.push_back({std::move(out), number});
+      if (!out.empty()) outside.push_back({std::move(out), number, part.cuts + 1});
     }
     if (inside.empty() || outside.empty()) return false;
     if (!accepts(farthest(inside, triangle).distance)) halve(inside, centre_of(inside));

@@ -5,14 +5,13 @@
 #include <queue>
 
 #include "multires/collapse_mesh.hpp"
-#include "multires/quadric.hpp"
+#include "multires/vertex_quadrics.hpp"
 
 namespace meshcontour::detail {
 namespace {
 
 using Kind = CollapseMesh::Kind;
 
-constexpr double kSharpWeight = 10;       // of a plane through a sharp edge, beside one of a triangle
 constexpr double kLengthWeight = 1e-9;    // decides where the error does not, in planes
 constexpr double kLeastCosine = 0.2;      // of the turn of a triangle
 constexpr std::uint32_t kMostEdges = 64;  // at a vertex that a collapse leaves
@@ -22,12 +21,9 @@ class Collapser {
   Collapser(const Shell& shell, double limit, unsigned threads)
       : mesh_(shell, threads),
         limit_(limit),
-        centre_(Point::Zero()),
-        quadrics_(mesh_.vertex_count()),
+        centre_(box_centre(shell)),
+        quadrics_(vertex_quadrics(mesh_, centre_)),
         versions_(mesh_.halfedge_count(), 0) {
-    const Box box = bounding_box(shell);
-    if (!box.isEmpty()) centre_ = box.center();
-    for (Index t = 0; t < shell.triangles.size(); ++t) add_quadrics(t);
     for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
       if (is_first(h)) push(h);
     }
@@ -63,33 +59,6 @@ class Collapser {
 
   // Of the two halfedges of an edge the one that stands for it.
   bool is_first(Index h) const { return mesh_.twin(h) == CollapseMesh::kNone || h < mesh_.twin(h); }
-
-  void add_quadrics(Index t) {
-    const Point a = local(mesh_.start(3 * t)), b = local(mesh_.start(3 * t + 1)),
-                c = local(mesh_.start(3 * t + 2));
-    const Vector cross = (b - a).cross(c - a);
-    const double area = cross.norm() / 2;
-    if (!(area > 0)) return;
-    const Vector normal = cross / (2 * area);
-    Quadric plane;
-    plane.add_plane(normal, a, area);
-    plane.weight = area;
-    for (Index k = 0; k < 3; ++k) quadrics_[mesh_.start(3 * t + k)] += plane;
-    for (Index h = 3 * t; h < 3 * t + 3; ++h) {
-      if (mesh_.is_sharp(h)) add_sharp_quadric(h, normal);
-    }
-  }
-
-  // The plane through a sharp edge that stands upright on its triangle.
-  void add_sharp_quadric(Index h, const Vector& normal) {
-    const Vector edge = local(mesh_.end(h)) - local(mesh_.start(h));
-    const double length = edge.norm();
-    if (!(length > 0)) return;
-    Quadric plane;
-    plane.add_plane(edge.cross(normal) / length, local(mesh_.start(h)), kSharpWeight * length * length);
-    quadrics_[mesh_.start(h)] += plane;
-    quadrics_[mesh_.end(h)] += plane;
-  }
 
   // What the queue holds of the edge is out of date.
   void push(Index h) {

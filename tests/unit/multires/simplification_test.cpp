@@ -1,7 +1,6 @@
 #include "meshcontour/simplification.hpp"
 
 #include "meshcontour/cleaning.hpp"
-#include "multires/triangle_tree.hpp"
 #include "support/catch.hpp"
 #include "support/dirty_meshes.hpp"
 #include "surfaces.hpp"
@@ -18,28 +17,6 @@ Shell simplified(Shell shell, SimplifyGoal goal, double value, unsigned threads 
   options.threads = threads;
   simplify_shell(shell, options, static_cast<std::size_t>(value));
   return shell;
-}
-
-// Distances of points spread over one surface to all triangles of the other, patch to patch.
-double sampled_distance(const Shell& from, const Shell& to) {
-  double worst = 0;
-  for (std::size_t p = 0; p < from.patches.size(); ++p) {
-    for (const Triangle& t : from.patch_triangles(p)) {
-      for (int i = 0; i <= 2; ++i) {
-        for (int j = 0; i + j <= 2; ++j) {
-          const Point q =
-              (i * from.points[t[0]] + j * from.points[t[1]] + (2 - i - j) * from.points[t[2]]) / 2;
-          double nearest = 1e300;
-          for (const Triangle& u : to.patch_triangles(p)) {
-            const detail::Corners corners = {to.points[u[0]], to.points[u[1]], to.points[u[2]]};
-            nearest = std::min(nearest, (detail::nearest_point(corners, q) - q).norm());
-          }
-          worst = std::max(worst, nearest);
-        }
-      }
-    }
-  }
-  return worst;
 }
 
 Shell sample_surface(int kind) {
@@ -81,7 +58,7 @@ TEST_CASE("simplify_shell: the error asked for is kept", "[multires]") {
   const Simplification result = simplify_shell(after, options, 0);
   CHECK(result.error <= error);
   CHECK(result.triangles_after == after.triangles.size());
-  const double sampled = std::max(sampled_distance(before, after), sampled_distance(after, before));
+  const double sampled = std::max(surfaces::sampled_distance(before, after), surfaces::sampled_distance(after, before));
   CHECK(sampled <= result.error + 1e-12);
   CHECK(sampled >= 0.8 * result.error);
   if (error > 0.01) CHECK(after.triangles.size() < before.triangles.size() * 3 / 4);
@@ -141,4 +118,20 @@ TEST_CASE("patch_distance: a dent between the corners is seen", "[multires]") {
   CHECK(d.lower <= 0.125 + 1e-12);
   CHECK(d.upper >= 0.125 - 1e-12);
   CHECK(d.upper <= 0.13);
+}
+
+TEST_CASE("patch_distance: slivers that rounding leaves between triangles end", "[multires]") {
+  const Shell whole = surfaces::shell_of({{-225, 225.99638403681701, -184.566390716954},
+                                          {-225, 225.34474585682599, -190.80033252951199},
+                                          {-225, 257.5, -185}},
+                                         {{0, 1, 2}});
+  const Shell parts = surfaces::shell_of({{-225, 225.99638403681701, -184.566390716954},
+                                          {-225, 225.67056494682151, -187.683361623233},
+                                          {-225, 233.05557142509622, -183.45664320024301},
+                                          {-225, 225.34474585682599, -190.80033252951199},
+                                          {-225, 232.92835076095707, -187.88186096557007}},
+                                         {{0, 1, 2}, {1, 3, 4}});
+  const SurfaceDistance d = patch_distance(whole, parts);
+  CHECK(d.upper <= 1.03 * d.lower);
+  CHECK(d.lower >= 20);
 }

@@ -12,6 +12,7 @@
 #include "meshcontour/boundary.hpp"
 #include "meshcontour/segmentation.hpp"
 #include "meshcontour/subdivision.hpp"
+#include "multires/triangle_tree.hpp"
 
 namespace surfaces {
 
@@ -96,6 +97,28 @@ inline Shell shuffled(const Shell& shell, std::uint32_t seed) {
     }
   }
   return out;
+}
+
+/// The largest distance of points spread over one surface to all triangles of the other, patch to patch.
+inline double sampled_distance(const Shell& from, const Shell& to) {
+  double worst = 0;
+  for (std::size_t p = 0; p < from.patches.size(); ++p) {
+    for (const Triangle& t : from.patch_triangles(p)) {
+      for (int i = 0; i <= 2; ++i) {
+        for (int j = 0; i + j <= 2; ++j) {
+          const Point q =
+              (i * from.points[t[0]] + j * from.points[t[1]] + (2 - i - j) * from.points[t[2]]) / 2;
+          double nearest = 1e300;
+          for (const Triangle& u : to.patch_triangles(p)) {
+            const detail::Corners corners = {to.points[u[0]], to.points[u[1]], to.points[u[2]]};
+            nearest = std::min(nearest, (detail::nearest_point(corners, q) - q).norm());
+          }
+          worst = std::max(worst, nearest);
+        }
+      }
+    }
+  }
+  return worst;
 }
 
 struct Topology {

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "meshcontour/wavelet.hpp"
+
+namespace meshcontour {
+
+struct RemeshOptions {
+  unsigned most_levels = 6;  ///< of subdivision, at least 1; fewer where patches are small
+  double tolerance = 0;  ///< distance of both surfaces at which base triangles become finer, as far as that
+                         ///< helps; 0: 0.2 % of the box diagonal; model units
+  unsigned threads = 0;  ///< 0: one per processor
+};
+
+/// A place on a triangle of a shell: shares of its corners, none below 0, with sum 1.
+struct SurfacePlace {
+  Index triangle = 0;
+  std::array<double, 3> weights{};
+};
+
+/// A shell as a subdivision mesh.
+struct Remesh {
+  Shell shell;  ///< points and triangles in the order of subdivided(); no corner normals, no creases
+  SubdivisionConnectivity connectivity;  ///< of that shell
+  std::vector<SurfacePlace> places;      ///< of each of its points, on the shell that it was made of
+  std::size_t flipped = 0;               ///< triangles that are turned over, beside the surface there
+  double error = 0;                      ///< patch_distance() of both shells, an upper bound; model units
+};
+
+/// Covers any surface with a mesh that comes from subdivisions: its own edges are collapsed to a base mesh,
+/// with a map between the two all the while, and the vertices of the subdivided base mesh go where that map
+/// takes them, on the surface. [Lee et al. 1998; Liu et al. 2020]
+///
+/// Patches keep their numbers, and their boundary loops number, order and first vertex. Vertices of borders,
+/// patch borders and creases lie on these, and every vertex that these had is among them. There are about
+/// four times as many triangles; at most sixteen times as many, of large surfaces eight times. O(n log n).
+///
+/// @throws Error  Usage if an option is out of range; BadData if the shell has no triangles or is not an orientable manifold (naming the vertex).
+Remesh remeshed(const Shell& shell, const RemeshOptions& options = {});
+
+}  // namespace meshcontour
