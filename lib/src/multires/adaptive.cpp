@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "multires/fitting.hpp"
 #include "multires/patches.hpp"
 
 namespace meshcontour::detail {
@@ -57,37 +56,21 @@ struct AdaptiveMesh::Leaf {
       out.insert(out.end(), {{a, m, c}, {m, n, c}});
     }
   }
-
-  // A place inside, by its barycentric coordinates.
-  VertexMean mean(const Vector& at) const {
-    const auto [a, b, c] = corners;
-    const auto [m, n] = middles;
-    const double x = at[0], y = at[1], z = at[2];
-    if (active == 0) return {{a, b, c}, {x, y, z}};
-    if (active == 2 && y >= 0.5) return {{b, m, n}, {2 * y - 1, 2 * x, 2 * z}};
-    if (active == 2 && from_first) {
-      if (z >= y) return {{a, n, c}, {x, 2 * y, z - y}};
-      return {{a, m, n}, {x - (y - z), 2 * (y - z), 2 * z}};
-    }
-    if (x >= y) return {{a, m, c}, {x - y, 2 * y, z}};
-    if (active == 1) return {{m, b, c}, {2 * x, y - x, z}};
-    return {{m, n, c}, {2 * x, 2 * (y - x), z - (y - x)}};
-  }
 };
 
 AdaptiveMesh::AdaptiveMesh(const SubdivisionConnectivity& connectivity, std::span<const Point> points,
-                           const std::vector<bool>& kept)
+                           const std::vector<bool>& kept, EdgeMeasure measure)
     : points_(points.begin(), points.end()) {
   const std::vector<std::size_t> patches = patch_of_triangles(connectivity.base);
   levels_.push_back(make_level(connectivity.base.triangles,
                                static_cast<Index>(connectivity.base.points.size()),
                                [&](std::size_t f, std::size_t g) { return patches[f] != patches[g]; }));
   for (unsigned j = 0; j < connectivity.levels; ++j) levels_.push_back(quadrisected(levels_.back()));
-  measure(kept);
+  this->measure(kept, measure);
   saturate();
 }
 
-void AdaptiveMesh::measure(const std::vector<bool>& kept) {
+void AdaptiveMesh::measure(const std::vector<bool>& kept, EdgeMeasure measure) {
   const std::vector<Vector> normals = vertex_normals(levels_.back(), points_);
   errors_.resize(levels_.size() - 1);
   for (std::size_t j = 0; j < errors_.size(); ++j) {
@@ -95,12 +78,14 @@ void AdaptiveMesh::measure(const std::vector<bool>& kept) {
     errors_[j].resize(level.edge_count());
     for (Index e = 0; e < level.edge_count(); ++e) {
       const Index h = level.first_halfedge[e], m = level.vertex_count + e;
-      const Vector shift = points_[m] - (points_[level.start(h)] + points_[level.end(h)]) / 2;
+      const Point &a = points_[level.start(h)], &b = points_[level.end(h)];
+      const Vector shift = points_[m] - (a + b) / 2;
+      const double scale = measure == EdgeMeasure::Integral ? (b - a).norm() : 1;
       const double along_normal = shift.dot(normals[m]);
       const double within = (shift - along_normal * normals[m]).norm();
       errors_[j][e] = kept[m]          ? kInfinity
-                      : level.sharp[e] ? shift.norm()
-                                       : std::hypot(along_normal, kTangentialShare * within);
+                      : level.sharp[e] ? scale * shift.norm()
+                                       : scale * std::hypot(along_normal, kTangentialShare * within);
     }
   }
 }
@@ -215,50 +200,6 @@ std::vector<Triangle> AdaptiveMesh::triangles(const ActiveEdges& active,
     first[base + 1] = out.size();
   });
   return out;
-}
-
-// Where the vertices in a triangle of the set lie on it.
-void AdaptiveMesh::place(const Leaf& leaf, std::size_t level, Index face,
-                         std::vector<VertexMean>& means) const {
-  struct Task {
-    std::size_t level;
-    Index face;
-    std::array<Vector, 3> at;
-  };
-  std::array<Vector, 3> corners;
-  for (std::size_t k = 0; k < 3; ++k)
-    corners[(leaf.turn + k) % 3] = Vector::Unit(static_cast<Eigen::Index>(k));
-  for (std::size_t k = 0; k < 3; ++k) means[levels_[level].triangles[face][k]] = leaf.mean(corners[k]);
-  std::vector<Task> tasks = {{level, face, corners}};
-  while (!tasks.empty()) {
-    const auto [j, f, at] = tasks.back();
-    tasks.pop_back();
-    if (j + 1 == levels_.size()) continue;
-    const Vector p = (at[0] + at[1]) / 2, q = (at[1] + at[2]) / 2, r = (at[2] + at[0]) / 2;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector& middle = k == 0 ? p : k == 1 ? q : r;
-      means[levels_[j].vertex_count + levels_[j].edges[3 * f + k]] = leaf.mean(middle);
-    }
-    tasks.push_back({j + 1, 4 * f, {at[0], p, r}});
-    tasks.push_back({j + 1, 4 * f + 1, {p, at[1], q}});
-    tasks.push_back({j + 1, 4 * f + 2, {r, q, at[2]}});
-    tasks.push_back({j + 1, 4 * f + 3, {p, q, r}});
-  }
-}
-
-std::vector<Point> AdaptiveMesh::fitted(const ActiveEdges& active) const {
-  const MeshLevel& finest = levels_.back();
-  std::vector<VertexMean> means(finest.vertex_count);
-  for_each_leaf(active,
-                [&](const Leaf& leaf, std::size_t j, Index face, Index) { place(leaf, j, face, means); });
-  std::vector<double> areas(finest.vertex_count, 0);
-  for (const auto& [a, b, c] : finest.triangles) {
-    const double area = (points_[b] - points_[a]).cross(points_[c] - points_[a]).norm();
-    for (const Index v : {a, b, c}) areas[v] += area;
-  }
-  std::vector<bool> fixed(finest.vertex_count);
-  for (Index v = 0; v < finest.vertex_count; ++v) fixed[v] = finest.sharp_edges[v] > 0;
-  return fit_vertices(means, areas, fixed, points_);
 }
 
 }  // namespace meshcontour::detail

@@ -4,10 +4,15 @@
 #include <vector>
 
 #include "meshcontour/wavelet.hpp"
-#include "multires/fitting.hpp"
 #include "multires/level.hpp"
 
 namespace meshcontour::detail {
+
+/// What an edge that is not cut costs.
+enum class EdgeMeasure {
+  Distance,  ///< the distance of its odd vertex
+  Integral,  ///< that times its length: the root of the squared distance over the surface around
+};
 
 /// A mesh with subdivision connectivity, and the meshes between its base and itself that are fine only where
 /// it needs it.
@@ -22,9 +27,9 @@ class AdaptiveMesh {
   /// @param points  of the finest level, in its order.
   /// @param kept    vertices of the finest level that every set holds.
   AdaptiveMesh(const SubdivisionConnectivity& connectivity, std::span<const Point> points,
-               const std::vector<bool>& kept);
+               const std::vector<bool>& kept, EdgeMeasure measure = EdgeMeasure::Distance);
 
-  /// Each edge's distance to the surface, the largest of all that hang on it: the edges with at least a given
+  /// Each edge's error, the largest of all that hang on it: the edges with at least a given
   /// one are closed, and those with a larger one are among them. Inside smooth parts a shift within the
   /// surface counts a tenth.
   const std::vector<std::vector<double>>& errors() const { return errors_; }
@@ -43,25 +48,17 @@ class AdaptiveMesh {
   /// @param first  one a triangle of the base and one more: where its triangles begin.
   std::vector<Triangle> triangles(const ActiveEdges& active, std::vector<std::size_t>& first) const;
 
-  /// Positions for the vertices of a closed set: those on sharp edges stay, the others go where the squared
-  /// distances of the finest vertices to their places on the triangles, by their share of the surface, have
-  /// the least sum.
-  ///
-  /// @return  one a vertex of the finest level; those that are not in the set are of no use.
-  std::vector<Point> fitted(const ActiveEdges& active) const;
-
   const std::vector<MeshLevel>& levels() const { return levels_; }
 
  private:
   struct Leaf;
-  void measure(const std::vector<bool>& kept);
+  void measure(const std::vector<bool>& kept, EdgeMeasure measure);
   void saturate();
   template <class Visit>
   void for_each_parent(std::size_t j, Index edge, Visit&& visit) const;
   template <class Visit>
   void for_each_leaf(const ActiveEdges& active, Visit&& visit) const;
   Leaf leaf_of(const ActiveEdges& active, std::size_t j, Index face) const;
-  void place(const Leaf& leaf, std::size_t level, Index face, std::vector<VertexMean>& means) const;
 
   std::vector<MeshLevel> levels_;
   std::vector<Point> points_;

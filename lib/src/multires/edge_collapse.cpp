@@ -18,9 +18,10 @@ constexpr std::uint32_t kMostEdges = 64;  // at a vertex that a collapse leaves
 
 class Collapser {
  public:
-  Collapser(const Shell& shell, double limit, unsigned threads)
+  Collapser(const Shell& shell, double limit, unsigned threads, bool keep_sharp)
       : mesh_(shell, threads),
         limit_(limit),
+        keep_sharp_(keep_sharp),
         centre_(box_centre(shell)),
         quadrics_(vertex_quadrics(mesh_, centre_)),
         versions_(mesh_.halfedge_count(), 0) {
@@ -67,7 +68,7 @@ class Collapser {
     const Index u = mesh_.start(h), v = mesh_.end(h);
     const Kind ku = mesh_.kind(u), kv = mesh_.kind(v);
     if (ku == Kind::Fixed && kv == Kind::Fixed) return;
-    if (ku != Kind::Smooth && kv != Kind::Smooth && !mesh_.is_sharp(h)) return;
+    if (ku != Kind::Smooth && kv != Kind::Smooth && (keep_sharp_ || !mesh_.is_sharp(h))) return;
     Quadric sum = quadrics_[u];
     sum += quadrics_[v];
     const Point a = local(u), b = local(v);
@@ -127,6 +128,7 @@ class Collapser {
 
   CollapseMesh mesh_;
   double limit_;
+  bool keep_sharp_;
   Point centre_;
   std::vector<Quadric> quadrics_;        // of each vertex, relative to centre_
   std::vector<std::uint32_t> versions_;  // of each halfedge: older candidates are out of date
@@ -136,8 +138,9 @@ class Collapser {
 
 }  // namespace
 
-Shell collapsed(const Shell& shell, std::size_t triangles, double limit, unsigned threads) {
-  Collapser collapser(shell, limit, threads);
+Shell collapsed(const Shell& shell, std::size_t triangles, double limit, unsigned threads,
+                bool keep_sharp) {
+  Collapser collapser(shell, limit, threads, keep_sharp);
   collapser.run(triangles);
   return collapser.mesh().to_shell(shell);
 }

@@ -15,6 +15,8 @@ namespace meshcontour::detail {
 /// @param triangles  to stop at.
 /// @param limit      largest root mean square distance of a vertex to the planes that it stands for;
 /// infinity: none.
-Shell collapsed(const Shell& shell, std::size_t triangles, double limit, unsigned threads);
+/// @param keep_sharp  vertices of sharp edges all stay.
+Shell collapsed(const Shell& shell, std::size_t triangles, double limit, unsigned threads,
+                bool keep_sharp = false);
 
 }  // namespace meshcontour::detail

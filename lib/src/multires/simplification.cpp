@@ -64,7 +64,10 @@ std::optional<detail::WaveletReduction> wavelet_way(const Shell& shell, const Si
   }
   const bool reaches = options.goal == SimplifyGoal::Error || connectivity.base.triangles.size() <= triangles;
   if (!chosen && (connectivity.levels < kLeastLevels || !reaches)) return std::nullopt;
-  return detail::WaveletReduction(shell, connectivity);
+  const bool largest = options.goal == SimplifyGoal::Error;
+  return std::optional<detail::WaveletReduction>(
+      std::in_place, shell, connectivity, largest ? detail::EdgeMeasure::Distance : detail::EdgeMeasure::Integral,
+      options.threads);
 }
 
 }  // namespace

@@ -5,9 +5,17 @@
 namespace meshcontour::detail {
 
 /// Simpler meshes of a shell that was subdivided: coarse where its details are small.
+///
+/// Details are chosen by their errors; then vertices and edges of the mesh that they give are fitted to the
+/// shell, borders and edges between patches aside, and vertices that are of no use any more are taken out.
 class WaveletReduction {
  public:
-  WaveletReduction(const Shell& shell, const SubdivisionConnectivity& connectivity);
+  /// @param shell    outlives this.
+  /// @param measure  by which details are chosen: Distance where the largest distance counts, Integral where
+  /// the
+  ///                 number of triangles does.
+  WaveletReduction(const Shell& shell, const SubdivisionConnectivity& connectivity, EdgeMeasure measure,
+                   unsigned threads);
 
   unsigned levels() const { return static_cast<unsigned>(mesh_.levels().size() - 1); }
 
@@ -15,15 +23,16 @@ class WaveletReduction {
   Shell within(double error) const;
 
   /// The largest details stay, so many that there are no more triangles, if the coarsest mesh has no more.
-  Shell with(std::size_t triangles) const { return within(mesh_.error_for(triangles)); }
+  Shell with(std::size_t triangles) const;
 
  private:
-  Shell shell_of(const std::vector<Point>& points, const std::vector<Triangle>& triangles,
-                 const std::vector<std::size_t>& first) const;
+  Shell chosen(double error) const;
 
+  const Shell& shell_;
   Shell base_;
   std::vector<Index> order_;
   AdaptiveMesh mesh_;
+  unsigned threads_;
 };
 
 }  // namespace meshcontour::detail

@@ -1,6 +1,9 @@
 #include "multires/adaptive.hpp"
 
 #include "meshcontour/simplification.hpp"
+#include "multires/block_system.hpp"
+#include "multires/surface_fit.hpp"
+#include "multires/triangle_tree.hpp"
 #include "support/catch.hpp"
 #include "surfaces.hpp"
 
@@ -50,6 +53,14 @@ std::vector<Triangle> triangles_of(const AdaptiveMesh& mesh, const AdaptiveMesh:
   std::vector<Triangle> triangles = mesh.triangles(active, first);
   CHECK(first.back() == triangles.size());
   return triangles;
+}
+
+// Of the distances of one surface's points to the other.
+double root_mean_square(const Shell& from, const Shell& to) {
+  const detail::TriangleTree tree(to.points, to.triangles);
+  double sum = 0;
+  for (const Point& p : from.points) sum += tree.nearest(p).squared;
+  return std::sqrt(sum / double(from.points.size()));
 }
 
 }  // namespace
@@ -105,78 +116,121 @@ TEST_CASE("AdaptiveMesh: sets are closed and nested in the error, budgets are ke
   }
 }
 
-TEST_CASE("AdaptiveMesh: sharp edges do not move when the inside does", "[multires][property]") {
+TEST_CASE("fit_to_surface: border curves are the same to the last bit whatever the inside is",
+          "[multires][property]") {
   const Sample s = sample(GENERATE(0, 1));
   const AdaptiveMesh mesh = s.mesh();
-  const auto active = mesh.edges_above(1e-3);
-  const std::vector<Point> fitted = mesh.fitted(active);
   const auto& finest = mesh.levels().back();
-  std::mt19937 random(8);
-  std::vector<Point> moved = s.points;
-  for (Index v = 0; v < moved.size(); ++v) {
-    if (finest.sharp_edges[v] == 0)
-      moved[v] += 0.1 * Point(uniform(random), uniform(random), uniform(random));
+  // The same details kept, of the surface and of one whose inside was moved at random.
+  std::vector<std::size_t> first;
+  Shell simple = surfaces::shell_of(s.points, mesh.triangles(mesh.edges_above(1e-3), first));
+  Shell fine = surfaces::shell_of(s.points, finest.triangles);
+  simple.patches = fine.patches = s.connectivity.base.patches;
+  for (std::size_t p = 0; p < simple.patches.size(); ++p) {
+    const Patch& base = s.connectivity.base.patches[p];
+    const std::size_t end = base.first_triangle + base.triangle_count;
+    simple.patches[p].first_triangle = first[base.first_triangle];
+    simple.patches[p].triangle_count = first[end] - first[base.first_triangle];
+    fine.patches[p].first_triangle <<= 2 * s.connectivity.levels;
+    fine.patches[p].triangle_count <<= 2 * s.connectivity.levels;
   }
-  const std::vector<Point> other = s.mesh(moved).fitted(active);
+  Shell other = simple, other_fine = fine;
+  std::mt19937 random(8);
+  for (Index v = 0; v < s.points.size(); ++v) {
+    if (finest.sharp_edges[v] > 0) continue;
+    other_fine.points[v] += 0.1 * Point(uniform(random), uniform(random), uniform(random));
+    other.points[v] = other_fine.points[v];
+  }
+  detail::fit_to_surface(simple, fine, 2, 1);
+  detail::fit_to_surface(other, other_fine, 2, 1);
   bool inside_moved = false;
-  for (const Triangle& t : triangles_of(mesh, active)) {
-    for (const Index v : t) {
-      if (finest.sharp_edges[v] > 0) {
-        CHECK(fitted[v] == other[v]);
-        CHECK(fitted[v] == s.points[v]);
-      } else {
-        inside_moved |= fitted[v] != other[v];
-      }
+  for (Index v = 0; v < s.points.size(); ++v) {
+    if (finest.sharp_edges[v] == 0) {
+      inside_moved |= simple.points[v] != other.points[v];
+    } else {
+      CHECK(simple.points[v] == s.points[v]);
+      CHECK(other.points[v] == s.points[v]);
     }
   }
   CHECK(inside_moved);
-}
-
-TEST_CASE("AdaptiveMesh: with every edge active there is nothing to fit", "[multires]") {
-  const Sample s = sample(1);
-  const AdaptiveMesh mesh = s.mesh();
-  const std::vector<Point> same = mesh.fitted(mesh.edges_above(0));
-  double worst = 0;
-  for (std::size_t v = 0; v < same.size(); ++v) worst = std::max(worst, (same[v] - s.points[v]).norm());
-  CHECK(worst <= 1e-9);
-}
-
-TEST_CASE("fit_vertices: nothing near has a smaller sum of squares, fixed points stay", "[multires]") {
-  std::mt19937 random(4);
-  const auto somewhere = [&] { return Point(uniform(random), uniform(random), uniform(random)); };
-  // Ten vertices, the last two fixed, and forty points on random triangles of them.
-  std::vector<Point> points;
-  std::vector<detail::VertexMean> means;
-  std::vector<double> shares;
-  std::vector<bool> fixed(50, false);
-  fixed[8] = fixed[9] = true;
-  for (Index i = 0; i < 50; ++i) {
-    points.push_back(somewhere());
-    shares.push_back(1.5 + uniform(random));
-    detail::VertexMean mean{{i, i, i}, {1, 0, 0}};
-    if (i >= 10) {
-      const double a = 0.5 + uniform(random) / 2, b = (1 - a) / 2;
-      mean = {{i % 10, (i + 3) % 10, (i + 7) % 10}, {a, b, 1 - a - b}};
-    }
-    means.push_back(mean);
+  const auto one = surfaces::boundaries_of(simple), two = surfaces::boundaries_of(other);
+  for (std::size_t p = 0; p < simple.patches.size(); ++p) {
+    REQUIRE(one[0].patches[p].loops.size() == two[0].patches[p].loops.size());
+    for (std::size_t l = 0; l < one[0].patches[p].loops.size(); ++l)
+      CHECK(one[0].patches[p].loops[l].vertices == two[0].patches[p].loops[l].vertices);
   }
-  const auto sum = [&](const std::vector<Point>& vertices) {
+}
+
+TEST_CASE("fit_to_surface: nearer than before, border points and patches stay", "[multires][property]") {
+  const Sample s = sample(GENERATE(0, 1));
+  Shell before = s.fine;
+  SimplifyOptions options;
+  options.method = SimplifyMethod::Qem;
+  options.goal = SimplifyGoal::Triangles;
+  options.value = 1;
+  simplify_shell(before, options, s.fine.triangles.size() / 10);
+  Shell after = before;
+  detail::fit_to_surface(after, s.fine, 3, 1);
+  CHECK(root_mean_square(s.fine, after) < 0.95 * root_mean_square(s.fine, before));
+  CHECK(surfaces::topology_of(after).manifold);
+  CHECK(surfaces::topology_of(after).euler == surfaces::topology_of(before).euler);
+  CHECK(surfaces::loops_thinned(before, after));
+  CHECK(surfaces::loops_thinned(after, before));
+  for (std::size_t p = 0; p < before.patches.size(); ++p)
+    CHECK(after.patches[p].triangle_count == before.patches[p].triangle_count);
+  Shell parallel = before;
+  detail::fit_to_surface(parallel, s.fine, 3, 4);
+  CHECK(parallel.points == after.points);
+  CHECK(parallel.triangles == after.triangles);
+}
+
+TEST_CASE("fit_to_surface: a mesh that is the surface stays", "[multires]") {
+  const Shell surface = sample(GENERATE(0, 1)).fine;
+  Shell mesh = surface;
+  detail::fit_to_surface(mesh, surface, 2, 1);
+  CHECK(mesh.triangles == surface.triangles);
+  double worst = 0;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    worst = std::max(worst, (mesh.points[v] - surface.points[v]).norm());
+  CHECK(worst <= 1e-12);
+}
+
+TEST_CASE("BlockSystem: nothing near has a smaller sum of squares, held vertices have no shift",
+          "[multires]") {
+  std::mt19937 random(4);
+  const auto somewhere = [&] { return Vector(uniform(random), uniform(random), uniform(random)); };
+  const std::vector<Triangle> triangles = {{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}};
+  const std::vector<bool> free = {true, true, true, true, true, false};
+  struct Row {
+    Index triangle;
+    Vector weights, rest;
+    Eigen::Matrix3d metric;
+  };
+  std::vector<Row> rows;
+  detail::BlockSystem system(triangles, free, 1e-9);
+  for (Index i = 0; i < 60; ++i) {
+    const double a = 0.5 + uniform(random) / 2, b = (1 - a) / 3;
+    const Vector n = somewhere();
+    const Row& row = rows.emplace_back(
+        Row{i % 4, {a, b, 1 - a - b}, somewhere(), n * n.transpose() + 0.1 * Eigen::Matrix3d::Identity()});
+    system.add(row.triangle, row.weights, row.metric, row.rest);
+  }
+  const auto sum = [&](const std::vector<Vector>& shifts) {
     double all = 0;
-    for (std::size_t i = 0; i < means.size(); ++i) {
-      Point at = Point::Zero();
-      for (std::size_t k = 0; k < 3; ++k) at += means[i].weights[k] * vertices[means[i].vertices[k]];
-      all += shares[i] * (at - points[i]).squaredNorm();
+    for (const Row& row : rows) {
+      Vector rest = row.rest;
+      for (std::size_t k = 0; k < 3; ++k)
+        rest -= row.weights[static_cast<Eigen::Index>(k)] * shifts[triangles[row.triangle][k]];
+      all += rest.dot(row.metric * rest);
     }
     return all;
   };
-  const std::vector<Point> fitted = detail::fit_vertices(means, shares, fixed, points);
-  CHECK(fitted[8] == points[8]);
-  CHECK(fitted[9] == points[9]);
-  CHECK(sum(fitted) < 0.9 * sum(points));
+  const std::vector<Vector> shifts = system.solve();
+  CHECK(shifts[5].isZero(0));
   for (int trial = 0; trial < 100; ++trial) {
-    std::vector<Point> other = fitted;
-    for (std::size_t v = 0; v < 8; ++v) other[v] += 0.01 * somewhere();
-    CHECK(sum(fitted) < sum(other));
+    std::vector<Vector> other = shifts;
+    for (std::size_t v = 0; v < 5; ++v) other[v] += 0.01 * somewhere();
+    CHECK(sum(shifts) < sum(other));
   }
 }
 
