@@ -64,6 +64,9 @@ void add_output_options(Group group, CommandLine& line) {
                   "Step of the coefficients in it, of a shell's box diagonal")
       ->default_str(fmt::format("{}", line.job.wavelet.precision));
   group.add_action(
+      "--no-remesh", [&line] { line.job.remesh = false; },
+      "For it and the layer detail: leave meshes that come from no subdivision as they are");
+  group.add_action(
       "--mesh-text", [&line] { line.job.mesh.binary = false; }, "Text instead of binary .stl and .ply");
   group.add_action(
       "--mesh-plain", [&line] { line.job.mesh.patches = false; }, "Triangles only, no patches or colours");

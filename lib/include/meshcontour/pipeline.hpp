@@ -55,6 +55,7 @@ struct Job {
   PatchSelection selection;
   std::vector<std::string> wavelets;  ///< files for the model as a progressive stream, before it is simplified
   WaveletStreamOptions wavelet;
+  bool remesh = true;  ///< shells that come from no subdivision, for `wavelets` and the layer Detail
   unsigned subdivisions = 0;  ///< steps of butterfly subdivision
   SubdivisionOptions subdivide;
   SimplifyOptions simplify;   ///< after that

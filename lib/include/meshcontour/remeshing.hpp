@@ -9,7 +9,9 @@
 namespace meshcontour {
 
 struct RemeshOptions {
-  unsigned most_levels = 6;  ///< of subdivision, at least 1; fewer where patches are small
+  unsigned most_levels = 6;  ///< of subdivision, 1 to 8; fewer where patches are small
+  std::size_t base_triangles = 200;  ///< of the base mesh about, up to four times as many; more where patches,
+                                     ///< topology or the tolerance need them
   double tolerance = 0;  ///< distance of both surfaces at which base triangles become finer, as far as that
                          ///< helps; 0: 0.2 % of the box diagonal; model units
   unsigned threads = 0;  ///< 0: one per processor
@@ -40,5 +42,18 @@ struct Remesh {
 ///
 /// @throws Error  Usage if an option is out of range; BadData if the shell has no triangles or is not an orientable manifold (naming the vertex).
 Remesh remeshed(const Shell& shell, const RemeshOptions& options = {});
+
+/// The model with a remesh in place of every shell whose triangles come from no subdivision, and a note for
+/// each of them. Shells that are no orientable manifold stay as they are; a note says why.
+///
+/// @throws Error  Usage if an option is out of range.
+Model with_remeshed_shells(const Model& model, const RemeshOptions& options, std::vector<Diagnostic>& notes);
+
+/// detail_sizes() of a remesh, what of the coefficients lies along the surface left out: of each point of the
+/// shell the largest on the triangles around it.
+///
+/// @throws Error  as remeshed().
+std::vector<double> remeshed_detail_sizes(const Shell& shell, const SubdivisionOptions& subdivide,
+                                          const RemeshOptions& options = {});
 
 }  // namespace meshcontour

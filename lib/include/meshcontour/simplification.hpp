@@ -10,7 +10,7 @@ namespace meshcontour {
 
 enum class SimplifyMethod {
   Automatic,  ///< Wavelet where the triangles come from two subdivisions or more, else Qem
-  Wavelet,    ///< details of a subdivided mesh are dropped, coarsest triangles stay
+  Wavelet,    ///< details of a subdivided mesh are dropped, coarsest triangles stay; others are remeshed before
   Qem,        ///< edges are collapsed by their quadric error [Garland & Heckbert 1997]
 };
 
@@ -35,7 +35,9 @@ struct Simplification {
   std::size_t shell = 0;  ///< index into Model::shells
   SimplifyMethod method = SimplifyMethod::Qem;
   std::size_t triangles_before = 0, triangles_after = 0;
-  unsigned levels = 0;  ///< subdivisions that the Wavelet method found
+  unsigned levels = 0;  ///< subdivisions that the Wavelet method found or made
+  std::size_t remesh_triangles = 0;  ///< of the subdivision mesh that it made; 0: none
+  double remesh_error = 0;           ///< of that mesh, as `error`
   double error = 0;  ///< two-sided Hausdorff distance, patch by patch, an upper bound within 2 %; model units
 };
 
@@ -47,9 +49,12 @@ struct Simplification {
 /// Corner normals stay where a triangle stays and are unknown elsewhere. O(n log n).
 ///
 /// @param triangles  to reach, for the goals Ratio and Triangles.
-/// @throws Error  BadData if the method is Wavelet and the triangles do not come from a subdivision; Usage if
-/// the
-///                goal's value is out of range.
+/// Where the Wavelet method had to remesh, borders keep their course to within the error, and their first
+/// vertices.
+///
+/// @throws Error  Usage if the goal's value is out of range; BadData if the method is Wavelet and the
+///                triangles neither come from a subdivision nor are an orientable manifold, or a subdivision
+///                mesh is farther from them than the error asked for.
 Simplification simplify_shell(Shell& shell, const SimplifyOptions& options, std::size_t triangles);
 
 /// simplify_shell for all shells of a model; nothing if the goal is None.

@@ -23,7 +23,6 @@ constexpr std::size_t kGrowth = 4;            // of the triangles, to resolve th
 constexpr std::size_t kMostGrowth = 8;        // where patches keep the base mesh from becoming smaller
 constexpr std::size_t kMostSmallGrowth = 16;  // of small ones
 constexpr std::size_t kSmall = 1 << 20;       // triangles
-constexpr std::size_t kLeastBase = 200;       // triangles of a base mesh that is worth a level
 constexpr unsigned kLeastLevels = 2, kMostLevels = 8;
 constexpr int kSmoothings = 3;         // more make coefficients smaller and the distance larger
 constexpr int kUnfoldings = 20;        // rounds
@@ -74,7 +73,8 @@ Base make_base(const Shell& shell, const RemeshOptions& options, const std::vect
   const std::size_t count = shell.triangles.size(),
                     room = std::max(kMostGrowth * count, std::min(kMostSmallGrowth * count, kSmall));
   const unsigned most = options.most_levels;
-  unsigned levels = std::min(most, std::max(kLeastLevels, levels_within(kLeastBase, kGrowth * count, most)));
+  unsigned levels =
+      std::min(most, std::max(kLeastLevels, levels_within(options.base_triangles, kGrowth * count, most)));
   for (;;) {
     Base base{SelfParameterization(shell, std::uint32_t{1} << levels, kept, options.threads), levels};
     detail::coarsen(base.surface, detail::box_centre(shell), (kGrowth * count) >> (2 * levels));
@@ -240,9 +240,11 @@ class Remesher {
 }  // namespace
 
 Remesh remeshed(const Shell& shell, const RemeshOptions& options) {
-  if (options.most_levels < 1 || options.most_levels > kMostLevels || !(options.tolerance >= 0)) {
-    throw Error(ErrorCode::Usage,
-                fmt::format("remeshing: expected 1 to {} levels and a tolerance of 0 or more", kMostLevels));
+  if (options.most_levels < 1 || options.most_levels > kMostLevels || options.base_triangles < 1 ||
+      !(options.tolerance >= 0)) {
+    throw Error(ErrorCode::Usage, fmt::format("remeshing: expected 1 to {} levels, a triangle or more and a "
+                                              "tolerance of 0 or more",
+                                              kMostLevels));
   }
   return Remesher(shell, options).run();
 }

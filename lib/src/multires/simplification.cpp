@@ -9,15 +9,18 @@
 #include <optional>
 
 #include "meshcontour/parallel.hpp"
+#include "meshcontour/remeshing.hpp"
 #include "multires/edge_collapse.hpp"
 #include "multires/wavelet_reduction.hpp"
 
 namespace meshcontour {
 namespace {
 
-constexpr int kTrials = 6;            // of limits until the error holds
-constexpr double kNearEnough = 0.7;   // of the error asked for: no further trial
-constexpr double kAim = 0.85;         // of the error asked for: what the next trial aims at
+constexpr int kTrials = 6;                             // of limits until the error holds
+constexpr double kNearEnough = 0.7;                    // of the error asked for: no further trial
+constexpr double kAim = 0.85;                          // of the error asked for: what the next trial aims at
+constexpr double kRemeshShare = 0.5;                   // of the error asked for, left to the subdivision mesh
+constexpr std::size_t kBaseShare = 4, kLeastBase = 8;  // of the triangles asked for
 constexpr unsigned kLeastLevels = 2;  // of a mesh that is taken for subdivided without being told
 
 void check(const SimplifyOptions& options) {
@@ -49,25 +52,45 @@ double reduce_within(Shell& shell, double error, unsigned threads,
   return best_distance;
 }
 
-// The wavelet way, where the shell has one and it is wanted.
-std::optional<detail::WaveletReduction> wavelet_way(const Shell& shell, const SimplifyOptions& options,
-                                                    std::size_t triangles) {
-  if (options.method == SimplifyMethod::Qem) return std::nullopt;
-  const SubdivisionConnectivity connectivity = find_subdivision(shell);
-  const bool chosen = options.method == SimplifyMethod::Wavelet;
-  if (chosen && connectivity.levels == 0) {
-    throw Error(
-        ErrorCode::BadData,
-        fmt::format("shell {}: its triangles do not come from a subdivision, which the wavelet method needs; "
-                    "use --simplify-method qem",
-                    printable(shell.id)));
+// A subdivision mesh in the place of a shell that is none, near enough for the error asked for.
+Remesh remesh_for(const Shell& shell, const SimplifyOptions& options, std::size_t triangles) {
+  RemeshOptions remesh_options;
+  remesh_options.threads = options.threads;
+  if (options.goal == SimplifyGoal::Error) {
+    remesh_options.tolerance = kRemeshShare * options.value;
+  } else {
+    remesh_options.base_triangles =
+        std::clamp(triangles / kBaseShare, kLeastBase, remesh_options.base_triangles);
   }
-  const bool reaches = options.goal == SimplifyGoal::Error || connectivity.base.triangles.size() <= triangles;
-  if (!chosen && (connectivity.levels < kLeastLevels || !reaches)) return std::nullopt;
-  const bool largest = options.goal == SimplifyGoal::Error;
-  return std::optional<detail::WaveletReduction>(
-      std::in_place, shell, connectivity, largest ? detail::EdgeMeasure::Distance : detail::EdgeMeasure::Integral,
-      options.threads);
+  Remesh remesh;
+  try {
+    remesh = remeshed(shell, remesh_options);
+  } catch (const Error& error) {
+    throw Error(error.code(), fmt::format("{}; --simplify-method qem takes it as it is", error.what()));
+  }
+  if (options.goal == SimplifyGoal::Error && remesh.error > options.value) {
+    throw Error(ErrorCode::BadData,
+                fmt::format("shell {}: as a subdivision mesh, which the wavelet method needs, it is {} from "
+                            "itself, more than the {} asked for; use --simplify-method qem",
+                            printable(shell.id), remesh.error, options.value));
+  }
+  return remesh;
+}
+
+// The wavelet way, where the shell has one and it is wanted; through a remesh where that is needed.
+std::optional<detail::WaveletReduction> wavelet_way(const Shell& shell, const SimplifyOptions& options,
+                                                    std::size_t triangles, std::optional<Remesh>& remesh) {
+  if (options.method == SimplifyMethod::Qem) return std::nullopt;
+  const SubdivisionConnectivity found = find_subdivision(shell);
+  const bool chosen = options.method == SimplifyMethod::Wavelet,
+             largest = options.goal == SimplifyGoal::Error;
+  const bool reaches = largest || found.base.triangles.size() <= triangles;
+  if (!chosen && (found.levels < kLeastLevels || !reaches)) return std::nullopt;
+  if (found.levels == 0) remesh = remesh_for(shell, options, triangles);
+  const auto measure = largest ? detail::EdgeMeasure::Distance : detail::EdgeMeasure::Integral;
+  return std::optional<detail::WaveletReduction>(std::in_place, remesh ? remesh->shell : shell, shell,
+                                                 remesh ? remesh->connectivity : found, measure,
+                                                 options.threads);
 }
 
 }  // namespace
@@ -78,10 +101,15 @@ Simplification simplify_shell(Shell& shell, const SimplifyOptions& options, std:
   result.triangles_before = result.triangles_after = shell.triangles.size();
   const bool enough = options.goal != SimplifyGoal::Error && triangles >= shell.triangles.size();
   if (options.goal == SimplifyGoal::None || shell.triangles.empty() || enough) return result;
-  const auto wavelets = wavelet_way(shell, options, triangles);
+  std::optional<Remesh> remesh;
+  const auto wavelets = wavelet_way(shell, options, triangles, remesh);
   if (wavelets) {
     result.method = SimplifyMethod::Wavelet;
     result.levels = wavelets->levels();
+  }
+  if (remesh) {
+    result.remesh_triangles = remesh->shell.triangles.size();
+    result.remesh_error = remesh->error;
   }
   if (options.goal == SimplifyGoal::Error) {
     const auto reduce = [&](double limit) {

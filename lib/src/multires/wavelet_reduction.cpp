@@ -30,9 +30,11 @@ std::vector<bool> kept_vertices(const Shell& shell, const std::vector<Index>& or
 
 }  // namespace
 
-WaveletReduction::WaveletReduction(const Shell& shell, const SubdivisionConnectivity& connectivity,
-                                   EdgeMeasure measure, unsigned threads)
+WaveletReduction::WaveletReduction(const Shell& shell, const Shell& surface,
+                                   const SubdivisionConnectivity& connectivity, EdgeMeasure measure,
+                                   unsigned threads)
     : shell_(shell),
+      surface_(surface),
       base_(connectivity.base),
       order_(connectivity.order),
       mesh_(connectivity, reordered(shell.points, order_), kept_vertices(shell, order_), measure),
@@ -40,16 +42,16 @@ WaveletReduction::WaveletReduction(const Shell& shell, const SubdivisionConnecti
 
 Shell WaveletReduction::within(double error) const {
   Shell shell = chosen(error);
-  fit_to_surface(shell, shell_, kLastRounds, threads_);
+  fit_to_surface(shell, surface_, kLastRounds, threads_);
   return shell;
 }
 
 Shell WaveletReduction::with(std::size_t triangles) const {
   const auto more = static_cast<std::size_t>(kSurplus * static_cast<double>(triangles));
   Shell shell = chosen(mesh_.error_for(more));
-  fit_to_surface(shell, shell_, kFirstRounds, threads_);
+  fit_to_surface(shell, surface_, kFirstRounds, threads_);
   shell = collapsed(shell, triangles, std::numeric_limits<double>::infinity(), threads_, true);
-  fit_to_surface(shell, shell_, kLastRounds, threads_);
+  fit_to_surface(shell, surface_, kLastRounds, threads_);
   return shell;
 }
 

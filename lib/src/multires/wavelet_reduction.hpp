@@ -11,11 +11,11 @@ namespace meshcontour::detail {
 class WaveletReduction {
  public:
   /// @param shell    outlives this.
+  /// @param surface  to which to fit, patch by patch: the shell or what it stands for; outlives this.
   /// @param measure  by which details are chosen: Distance where the largest distance counts, Integral where
-  /// the
-  ///                 number of triangles does.
-  WaveletReduction(const Shell& shell, const SubdivisionConnectivity& connectivity, EdgeMeasure measure,
-                   unsigned threads);
+  ///                 the number of triangles does.
+  WaveletReduction(const Shell& shell, const Shell& surface, const SubdivisionConnectivity& connectivity,
+                   EdgeMeasure measure, unsigned threads);
 
   unsigned levels() const { return static_cast<unsigned>(mesh_.levels().size() - 1); }
 
@@ -29,6 +29,7 @@ class WaveletReduction {
   Shell chosen(double error) const;
 
   const Shell& shell_;
+  const Shell& surface_;
   Shell base_;
   std::vector<Index> order_;
   AdaptiveMesh mesh_;

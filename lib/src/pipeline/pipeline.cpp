@@ -7,6 +7,7 @@
 #include "meshcontour/cleaning.hpp"
 #include "meshcontour/graph.hpp"
 #include "meshcontour/output.hpp"
+#include "meshcontour/remeshing.hpp"
 #include "meshcontour/units.hpp"
 #include "meshcontour/wavelet.hpp"
 #include "pipeline/preview.hpp"
@@ -25,6 +26,12 @@ View view_of(const Job& job, const OutputRequest& output) {
   return output.view.value_or(job.render.view);
 }
 
+RemeshOptions remesh_options(const Job& job) {
+  RemeshOptions options;
+  options.threads = job.subdivide.threads;
+  return options;
+}
+
 // The outputs of a job, opened before any work is done.
 class Targets {
  public:
@@ -38,7 +45,8 @@ class Targets {
   void write_wavelets(const Model& model, std::vector<Diagnostic>& notes) {
     if (wavelets_.empty()) return;
     StringSink stream;
-    write_wavelet_stream(model, job_.wavelet, stream, notes);
+    write_wavelet_stream(job_.remesh ? with_remeshed_shells(model, remesh_options(job_), notes) : model,
+                         job_.wavelet, stream, notes);
     for (Sink* sink : wavelets_) sink->write(stream.text);
   }
 
@@ -106,7 +114,15 @@ void find_lines(const Job& job, Run& run) {
 
 void find_details(const Job& job, Run& run) {
   run.timings.measure("detail", [&] {
-    for (Shell& shell : run.model.shells) shell.details = detail_sizes(shell, job.subdivide);
+    for (Shell& shell : run.model.shells) {
+      shell.details = detail_sizes(shell, job.subdivide);
+      if (!job.remesh || !shell.details.empty() || shell.triangles.empty()) continue;
+      try {
+        shell.details = remeshed_detail_sizes(shell, job.subdivide, remesh_options(job));
+      } catch (const Error& error) {
+        if (error.code() != ErrorCode::BadData) throw;
+      }
+    }
   });
   const auto plain = std::ranges::count_if(run.model.shells, [](const Shell& shell) { return shell.details.empty(); });
   if (plain == 0) return;

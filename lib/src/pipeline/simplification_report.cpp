@@ -16,6 +16,12 @@ std::string method_name(const Simplification& simplification) {
   return fmt::format("wavelets on {} levels", simplification.levels);
 }
 
+std::string remesh_of(const Simplification& simplification) {
+  if (simplification.remesh_triangles == 0) return {};
+  return fmt::format("; remeshed to {} triangles before, at most {} apart", simplification.remesh_triangles,
+                     simplification.remesh_error);
+}
+
 }  // namespace
 
 void report_simplifications(const SimplifyOptions& options, std::span<const Simplification> simplifications,
@@ -25,10 +31,11 @@ void report_simplifications(const SimplifyOptions& options, std::span<const Simp
     before += s.triangles_before;
     after += s.triangles_after;
     if (s.triangles_before == 0) continue;
-    model.diagnostics.push_back({Diagnostic::Severity::Note,
-                                 fmt::format("simplified from {} to {} triangles by {}, at most {} apart",
-                                             s.triangles_before, s.triangles_after, method_name(s), s.error),
-                                 spot_of(model, s)});
+    model.diagnostics.push_back(
+        {Diagnostic::Severity::Note,
+         fmt::format("simplified from {} to {} triangles by {}, at most {} apart{}", s.triangles_before,
+                     s.triangles_after, method_name(s), s.error, remesh_of(s)),
+         spot_of(model, s)});
   }
   if (options.goal == SimplifyGoal::Error || simplifications.empty()) return;
   const double wanted =

@@ -220,6 +220,67 @@ TEST_CASE("remeshed: triangles without an area break nothing", "[multires][error
   CHECK(remeshed(point).error <= 1e-12);
 }
 
+TEST_CASE("simplify_shell: wavelets on a remesh keep the error asked for, and loops", "[multires]") {
+  const Shell before = sample(GENERATE(0, 1, 4));
+  Shell after = before;
+  SimplifyOptions options;
+  options.method = SimplifyMethod::Wavelet;
+  options.goal = SimplifyGoal::Error;
+  options.value = 0.01 * bounding_box(before).diagonal().norm();
+  const Simplification result = simplify_shell(after, options, 0);
+  CHECK(result.method == SimplifyMethod::Wavelet);
+  CHECK(result.remesh_triangles > before.triangles.size());
+  CHECK(result.remesh_error <= options.value);
+  CHECK(result.error <= options.value);
+  CHECK(after.triangles.size() < before.triangles.size());
+  CHECK(patch_distance(before, after).upper <= options.value);
+  const surfaces::Topology was = surfaces::topology_of(before), is = surfaces::topology_of(after);
+  CHECK(is.manifold);
+  CHECK(is.euler == was.euler);
+  const auto loops = surfaces::boundaries_of(after);
+  const auto old_loops = surfaces::boundaries_of(before);
+  for (std::size_t p = 0; p < before.patches.size(); ++p) {
+    const auto &a = old_loops[0].patches[p].loops, &b = loops[0].patches[p].loops;
+    REQUIRE(a.size() == b.size());
+    for (std::size_t l = 0; l < a.size(); ++l)
+      CHECK(before.points[a[l].vertices[0]] == after.points[b[l].vertices[0]]);
+  }
+}
+
+TEST_CASE("simplify_shell: few triangles are reached by a coarser base mesh", "[multires]") {
+  Shell shell = sample(0);
+  SimplifyOptions options;
+  options.method = SimplifyMethod::Wavelet;
+  options.goal = SimplifyGoal::Triangles;
+  options.value = 60;
+  CHECK(simplify_shell(shell, options, 60).triangles_after <= 60);
+}
+
+TEST_CASE("with_remeshed_shells: others stay, and notes say which", "[multires]") {
+  Model model;
+  model.shells = {subdivided(surfaces::octahedron(), 2), sample(1), dirty::fin()};
+  std::vector<Diagnostic> notes;
+  const Model out = with_remeshed_shells(model, {}, notes);
+  CHECK(out.shells[0].triangles == model.shells[0].triangles);
+  CHECK(find_subdivision(out.shells[1]).levels > 0);
+  CHECK(out.shells[2].triangles == model.shells[2].triangles);
+  REQUIRE(notes.size() == 2);
+  CHECK_THAT(notes[0].message, Contains("remeshed from"));
+  CHECK_THAT(notes[1].message, Contains("not remeshed: "));
+}
+
+TEST_CASE("remeshed_detail_sizes: large around a dent, small elsewhere", "[multires]") {
+  Shell shell = surfaces::height_field(32, false, 0);
+  const Index dent = 16 * 33 + 8;
+  shell.points[dent].z() = 0.05;
+  const std::vector<double> sizes = remeshed_detail_sizes(shell, {});
+  REQUIRE(sizes.size() == shell.points.size());
+  CHECK(sizes[dent] > 1e-3);
+  for (std::size_t v = 0; v < sizes.size(); ++v) {
+    if ((shell.points[v] - shell.points[dent]).norm() > 0.6) CHECK(sizes[v] < 0.1 * sizes[dent]);
+  }
+}
+
 TEST_CASE("split_curve: every vertex is hit where there are enough places", "[multires]") {
   std::mt19937 random(8);
   for (int trial = 0; trial < 200; ++trial) {
