@@ -100,6 +100,7 @@ Image render(const Model& model, std::span<const ShellBoundary> boundaries, std:
   settings.threads = options.threads;
   settings.quick_compile = detail::drawn_triangles(model) <= detail::kQuickTriangles;
   detail::Scene scene = detail::build_scene(model, boundaries, contours, options);
+  if (scene.model_batches == 0) detail::refuse_blank(scene);
   detail::require_memory(scene, settings.largest_tile);
   return detail::draw(scene, settings, options.backend);
 }

@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+"""Runs the program on every sample with every group of options, in one thread and in several, and checks that it
+succeeds without a sanitizer's report and writes the same both times.
+
+Usage: run_samples.py PROGRAM SAMPLES [--without-pictures]; SAMPLES is the folder of stud.xml."""
+
+import collections
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+TABLES = ["a.csv", "a.obj", "a.json", "a.step", "a.dxf", "a.svg", "a.glb"]
+GROUPS = [
+    ["--fit", "primitives", "--strict"],
+    ["--fit", "approximate", "--extractor", "halfedge", "--edges", "unique", "--csv-of", "curves", "--obj", "curves"],
+    ["--fit", "interpolate", "--dxf", "polyline", "--step", "ap214", "--unit", "in", "--input-unit", "mm"],
+    ["--fit", "control", "--subdivide", "2", "--save-mesh", "a.ply", "--save-mesh", "a.stl", "--save-mesh", "b.obj"],
+    ["--simplify", "ratio:0.3", "--save-mesh", "a.off", "--save-mesh", "a.net"],
+    ["--subdivide", "2", "--save-wavelet", "a.mcw", "--simplify", "ratio:0.2", "--simplify-method", "wavelet"],
+    ["--patches-from", "angle", "--repair", "--weld", "1e-6", "--report", "r.json", "--report", "html:r.html"],
+    ["--patches-from", "none", "--obj", "tree", "-o", "a.wrl", "--boundary-rule", "trig", "--subdivide", "1"],
+]
+PICTURES = ["-o", "{view}.png", "--size", "160x120", "--view", "iso,top", "--layers",
+            "mesh,edges,curves,wireframe,points,control,frames,detail,annotations,tree,axes,scale"]
+REPORTS = {"r.json", "r.html"}  # hold times
+
+
+def samples(folder):
+    return [folder / "stud.xml", folder / "assembly/index.xml", *sorted((folder / "samples").rglob("*.*"))]
+
+
+def outputs(folder):
+    return {file.name: file.read_bytes() for file in folder.iterdir() if file.name not in REPORTS}
+
+
+def run(program, sample, options, threads, folder):
+    command = [program, sample, "-q", "-j", str(threads), *options]
+    for name in TABLES:
+        command += ["-o", name]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+
+
+def main(program, folder, *flags):
+    program, failures, codes = os.path.abspath(program), 0, collections.Counter()
+    for sample in samples(pathlib.Path(folder).resolve()):
+        for options in GROUPS:
+            if "--without-pictures" not in flags and options is GROUPS[0]:
+                options = options + PICTURES
+            results = []
+            for threads in (1, 4):
+                with tempfile.TemporaryDirectory() as work:
+                    done = run(program, sample, options, threads, work)
+                    results.append(outputs(pathlib.Path(work)))
+                codes[done.returncode] += 1
+                if done.returncode not in (0, 64, 65) or "Sanitizer" in done.stderr or "runtime error" in done.stderr:
+                    failures += 1
+                    print(f"{sample} {' '.join(options)} -j {threads}: exit code {done.returncode}\n{done.stderr[:3000]}")
+            if results[0] != results[1]:
+                failures += 1
+                print(f"{sample} {' '.join(options)}: other outputs with several threads")
+    print(f"exit codes {dict(sorted(codes.items()))}, {failures} failures")
+    return 1 if failures or not codes else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
