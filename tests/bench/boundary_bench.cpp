@@ -1,9 +1,15 @@
-// Boundary loops: ours beside CGAL's add_face and border walk, sorting all edges, and copying the indices.
+// Boundary loops: ours beside add_face and border walk with CGAL and, where it is installed, OpenMesh, beside sorting
+// all edges, and copying the indices.
 //
 // usage: bench_boundary [rounds] [case...]
 
 #include <fmt/format.h>
 #include <sys/mman.h>
+
+#if __has_include(<OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>)
+#define MESHCONTOUR_HAS_OPENMESH
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#endif
 
 #include <cmath>
 #include <cstdlib>
@@ -88,6 +94,61 @@ class AddFaceAndWalk {
   std::vector<Index> local_, vertices_;
 };
 
+#ifdef MESHCONTOUR_HAS_OPENMESH
+// The same with OpenMesh, with room for everything.
+class OpenMeshAndWalk {
+ public:
+  explicit OpenMeshAndWalk(const Shell& shell) : shell_(shell), local_(shell.points.size()) {}
+
+  Answer run() {
+    Answer answer;
+    for (std::size_t i = 0; i < shell_.patches.size(); ++i) add_patch(i, answer);
+    return answer;
+  }
+
+ private:
+  struct Traits : OpenMesh::DefaultTraits {
+    using Point = OpenMesh::Vec3d;
+    VertexAttributes(0);
+    HalfedgeAttributes(OpenMesh::Attributes::PrevHalfedge);
+    FaceAttributes(0);
+  };
+  using Mesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+
+  void add_patch(std::size_t patch, Answer& answer) {
+    const auto triangles = shell_.patch_triangles(patch);
+    Mesh mesh;
+    mesh.reserve(triangles.size() / 2 + 2, 3 * triangles.size() / 2 + 2, triangles.size());
+    const auto vertex = [&](Index v) {
+      if (!local_[v].is_valid()) {
+        const Point& p = shell_.points[v];
+        local_[v] = mesh.add_vertex({p.x(), p.y(), p.z()});
+        vertices_.push_back(v);
+      }
+      return local_[v];
+    };
+    for (const auto& [a, b, c] : triangles) mesh.add_face(vertex(a), vertex(b), vertex(c));
+    std::vector<bool> seen(mesh.n_halfedges());
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const OpenMesh::HalfedgeHandle start(static_cast<int>(i));
+      if (!mesh.is_boundary(start) || seen[i]) continue;
+      ++answer.loops;
+      for (auto h = start; !seen[static_cast<std::size_t>(h.idx())]; h = mesh.next_halfedge_handle(h)) {
+        seen[static_cast<std::size_t>(h.idx())] = true;
+        ++answer.edges;
+        answer.vertex_sum += vertices_[static_cast<std::size_t>(mesh.to_vertex_handle(h).idx())];
+      }
+    }
+    for (const Index v : vertices_) local_[v].invalidate();
+    vertices_.clear();
+  }
+
+  const Shell& shell_;
+  std::vector<OpenMesh::VertexHandle> local_;
+  std::vector<Index> vertices_;
+};
+#endif
+
 // The number of edges that occur once in a sorted list of all of them.
 std::size_t sort_all_edges(const Shell& shell) {
   std::size_t once = 0;
@@ -149,12 +210,22 @@ bool run(const std::string& name, const Model& model, int rounds) {
   }
   std::vector<Diagnostic> diagnostics;
   std::uint64_t sink = 0;
+#ifdef MESHCONTOUR_HAS_OPENMESH
+  OpenMeshAndWalk openmesh(shell);
+  if (openmesh.run() != expected) {
+    fmt::print("{}: OpenMesh's answer differs\n", name);
+    return false;
+  }
+#endif
   std::vector<bench::Contender> contenders = {
       {"sorted",
        [&] {
          extract_boundaries(model, {Extractor::Sorted, 1}, diagnostics);
        }},
       {"CGAL add_face + walk", [&] { sink += add_face.run().loops; }},
+#ifdef MESHCONTOUR_HAS_OPENMESH
+      {"OpenMesh add_face + walk", [&] { sink += openmesh.run().loops; }},
+#endif
       {"sort all edges", [&] { sink += sort_all_edges(shell); }},
       {"copy of the indices", [&] { sink += copy_indices(shell); }},
       {"halfedge", [&] {
