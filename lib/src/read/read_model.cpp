@@ -29,11 +29,11 @@ void warn_of_flat_shells(Model& model, const std::string& file) {
                            findings.diagnostics().end());
 }
 
-// Squares and products of lengths stay finite below it.
-constexpr double kLargest = 1e150;
+constexpr double kLargest = 1e100;        // of a coordinate: volumes stay finite
+constexpr double kLargestPlaced = 1e150;  // areas do
 
-bool in_range(const Box& box) {
-  return box.isEmpty() || ((box.min().array() >= -kLargest).all() && (box.max().array() <= kLargest).all());
+bool in_range(const Box& box, double largest) {
+  return box.isEmpty() || ((box.min().array() >= -largest).all() && (box.max().array() <= largest).all());
 }
 
 [[noreturn]] void refuse_vertex(const Shell& shell, const std::string& file) {
@@ -50,18 +50,20 @@ void check_range(const Model& model, const std::string& file) {
   for (const Shell& shell : model.shells) {
     Box& box = boxes.emplace_back();
     for (const Point& p : shell.points) box.extend(p);
-    if (!in_range(box)) refuse_vertex(shell, file);
+    if (!in_range(box, kLargest)) refuse_vertex(shell, file);
   }
   for (const Instance& instance : model.instances) {
-    if (boxes[instance.shell].isEmpty() || in_range(boxes[instance.shell].transformed(instance.placement))) continue;
-    throw Error(ErrorCode::BadData, fmt::format("a part is placed beyond {}, the limit of coordinates", kLargest),
+    if (boxes[instance.shell].isEmpty() || in_range(boxes[instance.shell].transformed(instance.placement), kLargestPlaced)) {
+      continue;
+    }
+    throw Error(ErrorCode::BadData, fmt::format("a part is placed beyond {}, the limit of coordinates", kLargestPlaced),
                 {file, 0, 0, "shell " + printable(model.shells[instance.shell].id, 80)});
   }
   for (const Polyline& line : model.annotations) {
     Box box;
     for (const Point& p : line.points) box.extend(p);
-    if (!in_range(box)) {
-      throw Error(ErrorCode::BadData, fmt::format("it lies beyond {}, the limit of coordinates", kLargest),
+    if (!in_range(box, kLargestPlaced)) {
+      throw Error(ErrorCode::BadData, fmt::format("it lies beyond {}, the limit of coordinates", kLargestPlaced),
                   {file, 0, 0, "annotation " + printable(line.name, 80)});
     }
   }
