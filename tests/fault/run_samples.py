@@ -19,10 +19,10 @@ GROUPS = [
     ["--fit", "control", "--subdivide", "2", "--save-mesh", "a.ply", "--save-mesh", "a.stl", "--save-mesh", "b.obj"],
     ["--simplify", "ratio:0.3", "--save-mesh", "a.off", "--save-mesh", "a.net"],
     ["--subdivide", "2", "--save-wavelet", "a.mcw", "--simplify", "ratio:0.2", "--simplify-method", "wavelet"],
-    ["--patches-from", "angle", "--repair", "--weld", "1e-6", "--report", "r.json", "--report", "html:r.html"],
+    ["--patches-from", "angle", "--repair", "--weld", "1e-6", "--report", "r.json"],
     ["--patches-from", "none", "--obj", "tree", "-o", "a.wrl", "--boundary-rule", "trig", "--subdivide", "1"],
 ]
-PICTURES = ["-o", "{view}.png", "--size", "160x120", "--view", "iso,top", "--layers",
+PICTURES = ["-o", "{view}.png", "--size", "160x120", "--view", "iso,top", "--report", "html:r.html", "--layers",
             "mesh,edges,curves,wireframe,points,control,frames,detail,annotations,tree,axes,scale"]
 REPORTS = {"r.json", "r.html"}  # hold times
 

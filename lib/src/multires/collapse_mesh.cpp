@@ -39,7 +39,7 @@ void CollapseMesh::mark_sharp(const Shell& shell) {
   sharp_.assign(twins_.size(), 0);
   for (Index h = 0; h < twins_.size(); ++h) {
     if (twins_[h] == kNone) continue;
-    const auto [low, high] = std::minmax(side_start(shell.triangles, h), side_end(shell.triangles, h));
+    const auto [low, high] = std::minmax({side_start(shell.triangles, h), side_end(shell.triangles, h)});
     const bool crease = std::ranges::binary_search(shell.creases, std::array<Index, 2>{low, high});
     sharp_[h] = patches[h / 3] != patches[twins_[h] / 3] ? 1 : crease ? 2 : 0;
   }
