@@ -15,7 +15,7 @@ LIBRARIES = {
     r"CLI/": ["app/command_line", "app/documentation", "app/help", "app/option_group"],
     r"CGAL/|boost/": ["lib/include/meshcontour/surface_mesh.hpp", "lib/src/boundary/", "lib/src/graph/",
                       "lib/src/model/", "lib/src/multires/", "lib/src/sweep/", "tests/"],
-    r"GL/|EGL/": ["lib/src/render/"],
+    r"GL/|EGL/": ["lib/src/render/", "tests/bench/"],
     r"stb/|stb_|libdeflate": ["lib/src/write/png", "tests/"],
     r"tinyxml2": ["lib/src/read/", "tests/"],
     r"tbb/|oneapi/": ["lib/src/base/parallel"],
