@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <span>
 #include <vector>
@@ -63,6 +64,17 @@ class WaveletTransform {
 
   /// The inverse, in place.
   void synthesise(std::span<Point> points) const;
+
+  /// One step of it: from the points of a level and its details behind them to the points of the next.
+  void synthesise(unsigned level, std::span<Point> points) const;
+
+  /// Directions in which the details of a level matter: columns are the normal and two tangents of what their
+  /// vertices are predicted to be, the tangents four times as long, as shifts within the surface matter less
+  /// [Khodakovsky, Schroeder & Sweldens 2000]; the axes at borders and other sharp edges.
+  ///
+  /// @param points  of the level.
+  /// @return        one an edge of the level; columns are perpendicular.
+  std::vector<Eigen::Matrix3d> detail_frames(unsigned level, std::span<const Point> points) const;
 
  private:
   struct Implementation;

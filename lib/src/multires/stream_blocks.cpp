@@ -11,15 +11,26 @@ namespace {
 constexpr int kCompression = 19;
 constexpr std::size_t kHeadSize = 5;  // kind and length
 
-std::string compressed(std::string_view bytes) {
+// Each part gets statistics of its own.
+std::string compressed(std::span<const std::string_view> parts) {
   const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
   if (!context) throw Error(ErrorCode::OutOfMemory, "wavelet stream: no memory to compress");
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, kCompression);
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
-  std::string out(ZSTD_compressBound(bytes.size()), '\0');
-  const std::size_t size = ZSTD_compress2(context.get(), out.data(), out.size(), bytes.data(), bytes.size());
-  if (ZSTD_isError(size)) throw Error(ErrorCode::Internal, std::string("zstd: ") + ZSTD_getErrorName(size));
-  out.resize(size);
+  std::string out;
+  for (const std::string_view& part : parts) {
+    const ZSTD_EndDirective directive = &part == &parts.back() ? ZSTD_e_end : ZSTD_e_flush;
+    ZSTD_inBuffer input{part.data(), part.size(), 0};
+    for (std::size_t rest = 1; rest > 0;) {
+      const std::size_t begin = out.size();
+      out.resize(begin + ZSTD_CStreamOutSize());
+      ZSTD_outBuffer output{out.data() + begin, out.size() - begin, 0};
+      rest = ZSTD_compressStream2(context.get(), &output, &input, directive);
+      if (ZSTD_isError(rest))
+        throw Error(ErrorCode::Internal, std::string("zstd: ") + ZSTD_getErrorName(rest));
+      out.resize(begin + output.pos);
+    }
+  }
   return out;
 }
 
@@ -32,13 +43,18 @@ BlockWriter::BlockWriter(Sink& sink) : sink_(sink) {
 
 void BlockWriter::write(BlockKind kind, std::string_view bytes) {
   for (; !bytes.empty(); bytes.remove_prefix(std::min(bytes.size(), kLargestBlock))) {
-    const std::string block = compressed(bytes.substr(0, kLargestBlock));
-    ByteWriter head;
-    head.byte(static_cast<std::uint8_t>(kind));
-    head.fixed(block.size(), 4);
-    sink_.write(head.bytes());
-    sink_.write(block);
+    const std::string_view part = bytes.substr(0, kLargestBlock);
+    write(kind, std::span(&part, 1));
   }
+}
+
+void BlockWriter::write(BlockKind kind, std::span<const std::string_view> parts) {
+  const std::string block = compressed(parts);
+  ByteWriter head;
+  head.byte(static_cast<std::uint8_t>(kind));
+  head.fixed(block.size(), 4);
+  sink_.write(head.bytes());
+  sink_.write(block);
 }
 
 void BlockWriter::end() {

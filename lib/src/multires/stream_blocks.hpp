@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "meshcontour/output.hpp"
@@ -12,7 +13,13 @@ namespace meshcontour::detail {
 /// The frame of a wavelet stream: a signature, a version, then blocks of a kind, the length of their
 /// compressed bytes and these: a zstd frame with its checksum. The end block has none.
 inline constexpr std::string_view kStreamSignature = "\x8FMCWAVE\n";
-inline constexpr std::uint8_t kStreamVersion = 1;
+inline constexpr std::uint8_t kStreamVersion = 2;
+
+/// The step of the details of a level, beside that of the finest: halved from level to level, as fewer
+/// details move larger parts of the surface.
+constexpr double detail_step(double finest, unsigned level, unsigned levels) {
+  return finest / static_cast<double>(std::uint64_t{1} << (levels - 1 - level));
+}
 
 enum class BlockKind : std::uint8_t { Base = 'B', Details = 'D', End = 'E' };
 
@@ -26,6 +33,9 @@ class BlockWriter {
 
   /// Writes bytes as blocks of one kind, cut where they are too many for one.
   void write(BlockKind kind, std::string_view bytes);
+
+  /// Writes parts, together no larger than the largest block, as one block.
+  void write(BlockKind kind, std::span<const std::string_view> parts);
   void end();
 
  private:

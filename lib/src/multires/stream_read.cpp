@@ -17,6 +17,7 @@ using detail::ByteReader;
 constexpr unsigned kMostLevels = 16;
 constexpr std::uint64_t kMostPoints = std::uint64_t{1} << 31;
 constexpr std::int64_t kLargestDetail = std::int64_t{1} << 40;  // in steps
+constexpr std::int64_t kLargestPlace = std::int64_t{1} << 52;   // in steps, of a coarse mesh's points
 constexpr std::uint64_t kMostExpansion = 4096;  // of the coarse meshes' bytes, beyond which a file is a trap
 
 // A shell while its coefficients come in.
@@ -26,7 +27,7 @@ struct Incoming {
   double step = 0;
   std::uint64_t expected = 0, seen = 0;  // coefficients
   std::size_t most = 0;                  // that there can be
-  std::vector<Point> details;            // up to the finest that came
+  std::vector<Point> details;            // up to the finest that came, in steps along their frames
 };
 
 class StreamReader {
@@ -104,13 +105,32 @@ class StreamReader {
     shell.levels = static_cast<unsigned>(in.count(kMostLevels));
     shell.step = in.number();
     if (shell.step < 0) in.fail("a step is negative");
-    for (std::uint64_t count = in.count(in.remaining() / 24); count > 0; --count) {
-      const double x = in.number(), y = in.number(), z = in.number();
-      shell.base.points.push_back({x, y, z});
-    }
+    read_points(in, shell);
     read_patches(in, shell);
     shell.expected = in.count(kMostPoints);
     return shell;
+  }
+
+  static void read_points(ByteReader& in, Incoming& shell) {
+    if (shell.levels == 0) {
+      for (std::uint64_t count = in.count(in.remaining() / 24); count > 0; --count) {
+        const double x = in.number(), y = in.number(), z = in.number();
+        shell.base.points.push_back({x, y, z});
+      }
+      return;
+    }
+    const std::uint64_t count = in.count(in.remaining() / 3);
+    const double x = in.number(), y = in.number(), z = in.number();
+    shell.base.points.assign(count, Point(x, y, z));
+    const double step = detail::detail_step(shell.step, 0, shell.levels) / 2;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      std::int64_t place = 0;
+      for (Point& p : shell.base.points) {
+        place += in.integer();
+        if (place > kLargestPlace || place < 0) in.fail("a point is out of range");
+        p[k] += step * static_cast<double>(place);
+      }
+    }
   }
 
   void read_patches(ByteReader& in, Incoming& shell) {
@@ -165,17 +185,23 @@ class StreamReader {
     const std::uint64_t number = in.count(incoming_.size());
     if (number >= incoming_.size()) in.fail("a coefficient names a shell that is not there");
     Incoming& shell = incoming_[number];
-    std::size_t at = 0;
-    for (; in.remaining() > 0; ++at, ++shell.seen) {
-      at += in.count(kMostPoints);
+    std::vector<std::size_t> chosen(in.count(in.remaining() / 4));
+    std::size_t next = 0;
+    for (std::size_t& at : chosen) {
+      at = next + in.count(kMostPoints);
       if (at >= shell.most) in.fail("a coefficient belongs to no vertex");
-      if (at >= shell.details.size()) shell.details.resize(at + 1, Point::Zero());
-      for (Eigen::Index k = 0; k < 3; ++k) {
+      next = at + 1;
+    }
+    if (next > shell.details.size()) shell.details.resize(next, Point::Zero());
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      for (const std::size_t at : chosen) {
         const std::int64_t value = in.integer();
         if (value > kLargestDetail || value < -kLargestDetail) in.fail("a coefficient is out of range");
-        shell.details[at][k] = shell.step * static_cast<double>(value);
+        shell.details[at][k] = static_cast<double>(value);
       }
     }
+    shell.seen += chosen.size();
+    if (in.remaining() > 0) in.fail("bytes follow the coefficients of a block");
   }
 
   // The mesh of the finest level, or where coefficients are missing of the finest one that has some.
@@ -190,7 +216,7 @@ class StreamReader {
     if (coarse + shell.details.size() > points.size()) fail("a coefficient belongs to no vertex");
     std::ranges::copy(out.points, points.begin());
     std::ranges::copy(shell.details, points.begin() + static_cast<std::ptrdiff_t>(coarse));
-    transform.synthesise(points);
+    for (unsigned level = 0; level < levels; ++level) refine(transform, level, shell, points);
     for (const Point& p : points) {
       if (!p.allFinite()) fail("its points are not finite");
     }
@@ -202,6 +228,18 @@ class StreamReader {
       patch.triangle_count <<= 2 * levels;
     }
     return out;
+  }
+
+  // From multiples of the step along the frames of a level to its details, then on to the next level.
+  static void refine(const WaveletTransform& transform, unsigned level, const Incoming& shell,
+                     std::vector<Point>& points) {
+    const double step = detail::detail_step(shell.step, level, shell.levels);
+    Index vertex = transform.vertex_count(level);
+    for (const Eigen::Matrix3d& frame : transform.detail_frames(level, points)) {
+      points[vertex] = step * (frame * points[vertex]);
+      ++vertex;
+    }
+    transform.synthesise(level, std::span(points).first(transform.vertex_count(level + 1)));
   }
 
   // The fewest levels with so many vertices.

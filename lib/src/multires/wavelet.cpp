@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "multires/level.hpp"
 #include "multires/patches.hpp"
@@ -13,6 +14,9 @@ namespace {
 
 using detail::MeshLevel;
 using detail::Stencils;
+
+constexpr double kTangentialStep = 4;    // beside one along the normal
+constexpr double kPerpendicular = 1e-6;  // what squares of lengths may be off
 
 // What the detail of an edge adds to an even vertex.
 struct Lift {
@@ -179,11 +183,37 @@ void WaveletTransform::analyse(std::span<Point> points) const {
 }
 
 void WaveletTransform::synthesise(std::span<Point> points) const {
-  for (std::size_t j = 0; j < levels(); ++j) {
-    const std::span<Point> fine = points.first(implementation_->levels[j + 1].vertex_count);
-    implementation_->update(j, fine, -1);
-    detail::add_prediction(implementation_->levels[j], implementation_->options, 1, fine);
+  for (unsigned j = 0; j < levels(); ++j) synthesise(j, points.first(vertex_count(j + 1)));
+}
+
+void WaveletTransform::synthesise(unsigned level, std::span<Point> points) const {
+  implementation_->update(level, points, -1);
+  detail::add_prediction(implementation_->levels[level], implementation_->options, 1, points);
+}
+
+std::vector<Eigen::Matrix3d> WaveletTransform::detail_frames(unsigned level,
+                                                             std::span<const Point> points) const {
+  const MeshLevel &coarse = implementation_->levels[level], &fine = implementation_->levels[level + 1];
+  std::vector<Point> predicted(points.begin(), points.begin() + coarse.vertex_count);
+  predicted.resize(fine.vertex_count, Point::Zero());
+  detail::add_prediction(coarse, implementation_->options, 1, predicted);
+  std::vector<Vector> normals(coarse.edge_count(), Vector::Zero());
+  for (const auto& [a, b, c] : fine.triangles) {
+    const Vector normal = (predicted[b] - predicted[a]).cross(predicted[c] - predicted[a]);
+    for (const Index v : {a, b, c}) {
+      if (v >= coarse.vertex_count) normals[v - coarse.vertex_count] += normal;
+    }
   }
+  std::vector<Eigen::Matrix3d> frames(coarse.edge_count(), Eigen::Matrix3d::Identity());
+  for (Index e = 0; e < frames.size(); ++e) {
+    const Index h = coarse.first_halfedge[e];
+    const Vector normal = normals[e].stableNormalized();
+    const Vector side = predicted[coarse.end(h)] - predicted[coarse.start(h)];
+    const Vector tangent = (side - side.dot(normal) * normal).stableNormalized();
+    if (coarse.sharp[e] || !(std::abs(normal.cross(tangent).squaredNorm() - 1) < kPerpendicular)) continue;
+    frames[e] << normal, kTangentialStep * tangent, kTangentialStep * normal.cross(tangent);
+  }
+  return frames;
 }
 
 }  // namespace meshcontour

@@ -237,3 +237,28 @@ TEST_CASE("find_subdivision: other meshes are none", "[multires]") {
   CHECK(find_subdivision(surfaces::height_field(5, false)).levels == 0);
   CHECK(find_subdivision(Shell{}).levels == 0);
 }
+
+TEST_CASE("WaveletTransform: frames are perpendicular, with the normal first, and the axes at borders",
+          "[multires]") {
+  const Shell base = surfaces::height_field(4, false);
+  const WaveletTransform transform(base, 2);
+  const Shell fine = subdivided(base, 1);
+  const auto frames = transform.detail_frames(1, fine.points);
+  REQUIRE(frames.size() == transform.vertex_count(2) - transform.vertex_count(1));
+  const Shell finest = subdivided(base, 2);
+  std::size_t inner = 0;
+  for (std::size_t e = 0; e < frames.size(); ++e) {
+    const Point& p = finest.points[transform.vertex_count(1) + e];
+    if (frames[e] == Eigen::Matrix3d::Identity()) {
+      const bool border = std::min({p.x(), p.y(), 1 - p.x(), 1 - p.y()}) < 0.03;
+      CHECK((border || std::abs(p.x() - 0.5) < 0.03));
+      continue;
+    }
+    ++inner;
+    const Vector lengths(1, 4, 4);
+    const Eigen::Matrix3d product = frames[e].transpose() * frames[e];
+    CHECK((product - Eigen::Matrix3d(lengths.array().square().matrix().asDiagonal())).norm() <= 1e-12);
+    CHECK(frames[e](2, 0) > 0.5);
+  }
+  CHECK(inner > frames.size() / 2);
+}
