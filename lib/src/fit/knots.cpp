@@ -44,9 +44,9 @@ KnotDensity::KnotDensity(std::span<const Point> points, std::span<const double> 
   std::vector<double> wanted(n);  // spans a unit of the parameter, at each point
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t first = closed ? i + n - 2 : std::clamp<std::size_t>(i, 2, n - 3) - 2;
-    wanted[i] = std::pow(fourth_derivative(points, parameters, closed ? first % n : first, period) /
-                             (kErrorConstant * tolerance),
-                         0.25);
+    wanted[i] =
+        std::sqrt(std::sqrt(fourth_derivative(points, parameters, closed ? first % n : first, period) /
+                            (kErrorConstant * tolerance)));
   }
   const double mean = std::accumulate(wanted.begin(), wanted.end(), 0.0) / static_cast<double>(n);
   for (std::size_t i = 0; i < mass_.size(); ++i) {

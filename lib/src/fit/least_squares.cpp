@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "fit/sample_pairs.hpp"
+
 namespace meshcontour::detail {
 namespace {
 
@@ -13,42 +15,45 @@ class SpanBasis {
  public:
   /// @param t  points at the knot that begins the span; t[-2] .. t[3] are used.
   explicit SpanBasis(const double* t)
-      : low2_(t[-2]),
-        low1_(t[-1]),
-        low_(t[0]),
-        high_(t[1]),
-        high1_(t[2]),
-        high2_(t[3]),
-        over1_(1 / (high_ - low_)),
-        over2_{1 / (high_ - low1_), 1 / (high1_ - low_)},
-        over3_{1 / (high_ - low2_), 1 / (high1_ - low1_), 1 / (high2_ - low_)} {}
+      : low2_(t[-2]), low1_(t[-1]), low_(t[0]), high_(t[1]), high1_(t[2]), high2_(t[3]) {
+    const Pair over2 = 1 / Pair{high_ - low1_, high1_ - low_};
+    const Pair outer = 1 / Pair{high_ - low2_, high2_ - low_};
+    const Pair inner = 1 / Pair{high_ - low_, high1_ - low1_};
+    over2_ = {over2[0] * inner[0], over2[1] * inner[0]};
+    over3_ = {outer[0], inner[1], outer[1]};
+  }
 
   std::array<double, 4> operator()(double u) const {
-    const double b1 = (u - low_) * over1_, b0 = (high_ - u) * over1_;
-    const double x = b0 * over2_[0], y = b1 * over2_[1];
-    const double c0 = (high_ - u) * x, c1 = (u - low1_) * x + (high1_ - u) * y, c2 = (u - low_) * y;
-    const double p = c0 * over3_[0], q = c1 * over3_[1], r = c2 * over3_[2];
-    return {(high_ - u) * p, (u - low2_) * p + (high1_ - u) * q, (u - low1_) * q + (high2_ - u) * r,
-            (u - low_) * r};
+    const double above = u - low_, below = high_ - u, above1 = u - low1_, below1 = high1_ - u;
+    const double x = below * over2_[0], y = above * over2_[1];
+    const double p = below * x * over3_[0], q = (above1 * x + below1 * y) * over3_[1];
+    const double r = above * y * over3_[2];
+    return {below * p, (u - low2_) * p + below1 * q, above1 * q + (high2_ - u) * r, above * r};
   }
 
  private:
   double low2_, low1_, low_, high_, high1_, high2_;
-  double over1_;
   std::array<double, 2> over2_;
   std::array<double, 3> over3_;
 };
 
 // The share of one span in the normal equations.
 struct SpanSums {
-  std::array<std::array<double, 4>, 4> products{};  // [a][b - a]
-  std::array<Vector, 4> right{Vector::Zero(), Vector::Zero(), Vector::Zero(), Vector::Zero()};
+  Pair row0[2]{}, row1[2]{}, row2{}, row3{};  // products with basis functions 0 and 1, and 2 and 3
+  Pair right[3][2]{};                         // products of these with the coordinates
 
   void add(const std::array<double, 4>& basis, const Point& p, double weight) {
-    for (std::size_t a = 0; a < 4; ++a) {
-      const double weighted = weight * basis[a];
-      for (std::size_t b = a; b < 4; ++b) products[a][b - a] += weighted * basis[b];
-      right[a] += weighted * p;
+    const Pair low{basis[0], basis[1]}, high{basis[2], basis[3]};
+    const Pair weighted_low = weight * low, weighted_high = weight * high;
+    row0[0] += weighted_low[0] * low;
+    row0[1] += weighted_low[0] * high;
+    row1[0] += weighted_low[1] * low;
+    row1[1] += weighted_low[1] * high;
+    row2 += weighted_high[0] * high;
+    row3 += weighted_high[1] * high;
+    for (int c = 0; c < 3; ++c) {
+      right[c][0] += p[c] * weighted_low;
+      right[c][1] += p[c] * weighted_high;
     }
   }
 };
@@ -57,35 +62,31 @@ struct SpanSums {
 
 void CubicLeastSquares::assemble(std::size_t unknowns, std::span<const double> knots,
                                  std::span<const Point> points, std::span<const double> parameters) {
-  rows_.assign(unknowns, Row{});
-  right_.assign(unknowns, Vector::Zero());
+  rows_.assign(unknowns + 3, Row{});
+  right_.assign(unknowns + 3, Vector::Zero());
   const double* t = knots.data() + 3;
-  const std::size_t spans = knots.size() - 7;
-  const double begin = t[0], end = t[spans];
-  const auto add_span = [&](std::size_t span, const SpanSums& sums) {
+  const auto add_span = [&](std::size_t span, std::size_t begin, std::size_t end, double shift) {
+    const SpanBasis basis(t + span);
+    SpanSums sums;
+    for (std::size_t i = begin; i < end; ++i) {
+      sums.add(basis(parameters[i] + shift), points[i], weights_.empty() ? 1.0 : weights_[i]);
+    }
+    const auto at = [&](std::size_t a) { return span + a < unknowns ? span + a : span + a - unknowns; };
+    Row &row0 = rows_[at(0)], &row1 = rows_[at(1)], &row2 = rows_[at(2)];
+    for (std::size_t d = 0; d < 2; ++d) {
+      row0[d] += sums.row0[0][d];
+      row0[d + 2] += sums.row0[1][d];
+      row1[d + 1] += sums.row1[1][d];
+      row2[d] += sums.row2[d];
+    }
+    row1[0] += sums.row1[0][1];
+    rows_[at(3)][0] += sums.row3[1];
     for (std::size_t a = 0; a < 4; ++a) {
-      const std::size_t i = span + a < unknowns ? span + a : span + a - unknowns;
-      for (std::size_t d = 0; d + a < 4; ++d) rows_[i][d] += sums.products[a][d];
-      right_[i] += sums.right[a];
+      const auto sum = [&](int c) { return sums.right[c][a / 2][a % 2]; };
+      right_[at(a)] += Vector(sum(0), sum(1), sum(2));
     }
   };
-  std::size_t span = 0;
-  SpanBasis basis(t);
-  SpanSums sums;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double u = parameters[i] < begin ? parameters[i] + (end - begin)
-                     : parameters[i] > end ? parameters[i] - (end - begin)
-                                           : parameters[i];
-    if (u < t[span] || (u >= t[span + 1] && span + 1 < spans)) {
-      add_span(span, sums);
-      sums = {};
-      while (span > 0 && u < t[span]) --span;
-      while (span + 1 < spans && u >= t[span + 1]) ++span;
-      basis = SpanBasis(t + span);
-    }
-    sums.add(basis(u), points[i], weights_.empty() ? 1.0 : weights_[i]);
-  }
-  add_span(span, sums);
+  for_each_span(t, knots.size() - 7, parameters, add_span);
 }
 
 void CubicLeastSquares::fix(std::size_t i, const Point& value) {
@@ -104,34 +105,38 @@ void CubicLeastSquares::fix(std::size_t i, const Point& value) {
 // Without square roots: the factor's rows replace the matrix's, its pivots the diagonal.
 bool CubicLeastSquares::factorize(std::size_t count, bool with_border) {
   double before[4] = {};  // diagonal entries ahead, before elimination
-  for (std::size_t d = 0; d < std::min<std::size_t>(4, count); ++d) before[d] = rows_[d][0];
+  for (std::size_t d = 0; d < 4; ++d) before[d] = rows_[std::min(d, count - 1)][0];
   for (std::size_t i = 0; i < count; ++i) {
-    Row& row = rows_[i];
-    if (!(row[0] > kSmallestPivot * before[i % 4])) return false;
-    const double inverse = 1 / row[0];
-    const std::size_t reach = std::min<std::size_t>(3, count - 1 - i);
-    Row factors{};
-    for (std::size_t a = 1; a <= reach; ++a) {
-      factors[a] = row[a] * inverse;
-      for (std::size_t b = a; b <= reach; ++b) rows_[i + a][b - a] -= factors[a] * row[b];
-      right_[i + a] -= factors[a] * right_[i];
-      if (with_border) border_[i + a] -= factors[a] * border_[i];
-    }
-    row = {inverse, factors[1], factors[2], factors[3]};
-    if (i + 4 < count) before[i % 4] = rows_[i + 4][0];
+    Row* row = &rows_[i];
+    if (!(row[0][0] > kSmallestPivot * before[i % 4])) return false;
+    before[i % 4] = rows_[std::min(i + 4, count - 1)][0];
+    const double inverse = 1 / row[0][0];
+    const double p = row[0][1], q = row[0][2], r = row[0][3];
+    const Row factors{inverse, p * inverse, q * inverse, r * inverse};
+    row[1][0] -= factors[1] * p;
+    row[1][1] -= factors[1] * q;
+    row[1][2] -= factors[1] * r;
+    row[2][0] -= factors[2] * q;
+    row[2][1] -= factors[2] * r;
+    row[3][0] -= factors[3] * r;
+    row[0] = factors;
+    for (std::size_t a = 1; a <= 3; ++a) right_[i + a] -= factors[a] * right_[i];
+    if (!with_border) continue;
+    for (std::size_t a = 1; a <= 3; ++a) border_[i + a] -= factors[a] * border_[i];
   }
   return true;
 }
 
-void CubicLeastSquares::substitute(std::size_t count, bool with_border) {
+// The three rows after the last are zero.
+void CubicLeastSquares::substitute(std::vector<Vector>& column, std::size_t count) const {
+  Vector next1 = Vector::Zero(), next2 = next1, next3 = next1;
   for (std::size_t i = count; i-- > 0;) {
     const Row& row = rows_[i];
-    right_[i] *= row[0];
-    if (with_border) border_[i] *= row[0];
-    for (std::size_t a = 1; a <= std::min<std::size_t>(3, count - 1 - i); ++a) {
-      right_[i] -= row[a] * right_[i + a];
-      if (with_border) border_[i] -= row[a] * border_[i + a];
-    }
+    const Vector value = row[0] * column[i] - row[1] * next1 - row[2] * next2 - row[3] * next3;
+    next3 = next2;
+    next2 = next1;
+    next1 = value;
+    column[i] = value;
   }
 }
 
@@ -146,7 +151,7 @@ bool CubicLeastSquares::solve_open(std::span<const double> knots, std::span<cons
     if (second) fix(1, *second);
     if (before_last) fix(count - 2, *before_last);
     if (!factorize(count, false)) return false;
-    substitute(count, false);
+    substitute(right_, count);
     return true;
   };
   if (!solve({}, {})) return false;
@@ -164,16 +169,16 @@ bool CubicLeastSquares::solve_open(std::span<const double> knots, std::span<cons
     }
     if (!solve(second, before_last)) return false;
   }
-  control.assign(right_.begin(), right_.end());
+  control.assign(right_.begin(), right_.begin() + static_cast<std::ptrdiff_t>(count));
   control.front() = points.front();
   control.back() = points.back();
   return true;
 }
 
-// Moves the last three rows and columns of the cyclic matrix to border_ and corner_.
+// Moves the last three rows and columns of the cyclic matrix to border_ and corner_, and leaves zeros.
 void CubicLeastSquares::split_border(std::size_t inner) {
   const std::size_t unknowns = inner + 3;
-  border_.assign(inner, Vector::Zero());
+  border_.assign(unknowns, Vector::Zero());
   corner_.setZero();
   const auto add = [&](std::size_t i, std::size_t j, double value) {  // i < j after sorting
     if (j < i) std::swap(i, j);
@@ -191,6 +196,7 @@ void CubicLeastSquares::split_border(std::size_t inner) {
       const std::size_t j = (i + d) % unknowns;
       if (i < inner && j < inner) continue;
       add(i, j, rows_[i][d]);
+      rows_[i][d] = 0;
     }
   }
 }
@@ -208,7 +214,8 @@ bool CubicLeastSquares::solve_closed(std::span<const double> knots, std::span<co
   };
   for_ends([&](std::size_t slot, std::size_t i) { border_ends_[slot] = border_[i]; });
   if (!factorize(inner, true)) return false;
-  substitute(inner, true);
+  substitute(right_, inner);
+  substitute(border_, inner);
   Eigen::Matrix3d schur = corner_, right;
   for (std::size_t k = 0; k < 3; ++k) right.row(static_cast<Eigen::Index>(k)) = right_[inner + k].transpose();
   for_ends([&](std::size_t slot, std::size_t i) {

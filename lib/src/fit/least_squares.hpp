@@ -53,10 +53,10 @@ class CubicLeastSquares {
   void fix(std::size_t i, const Point& value);
   void split_border(std::size_t inner);
   bool factorize(std::size_t count, bool with_border);
-  void substitute(std::size_t count, bool with_border);
+  void substitute(std::vector<Vector>& column, std::size_t count) const;
 
   std::vector<double> weights_;
-  std::vector<Row> rows_;
+  std::vector<Row> rows_;  // and three of zeros, as right_ and border_
   std::vector<Vector> right_;
   std::vector<Vector> border_;         // row i: the entries (i, inner) .. (i, inner + 2)
   Eigen::Matrix3d corner_;             // the border's own square

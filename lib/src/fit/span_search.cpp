@@ -7,7 +7,7 @@
 namespace meshcontour::detail {
 namespace {
 
-constexpr int kRounds = 2;  // of least squares and footpoints a fit
+constexpr int kSearchRounds = 1, kLastRounds = 2;  // of least squares and footpoints a fit
 constexpr int kBalancings = 4,
               kMostBalancings = 8;  // of the knots at one number of spans; the most if nearly there
 
@@ -18,12 +18,16 @@ constexpr double kNearly = 1.05;            // below this, knots are moved on ev
 constexpr double kProgress = 0.965;         // the least that moving knots has to achieve at once
 constexpr double kFewerUntouched = 1.3;     // expected with one span less, had the knots not been moved yet
 constexpr double kFewerBalanced = 1.08;     // or had they been
-constexpr std::size_t kFewVertices = 32;    // so few that nothing is stopped early
+constexpr double kFewerAtLast = 2;          // or for the last attempts, which get more rounds
+constexpr double kFewerOfFew = 1.1;         // or where quickness is worth more than a control point
+constexpr std::size_t kQuickVertices =
+    48;  // which it is up to here: loops of so few vertices come in thousands
+constexpr std::size_t kFewVertices = 32;  // so few that nothing is stopped early
 
-constexpr double kSuspicious = 1.25;         // times the spans that the points ask for
+constexpr double kSuspicious = 1.4;          // times the spans that the points ask for
 constexpr std::size_t kFewToRepeat = 1'000;  // spans at most, for a search to be repeated thoroughly
 
-constexpr double kFirstShare = 0.95;    // of the spans that the density says
+constexpr double kFirstShare = 1;       // of the spans that the density says
 constexpr double kNextShare = 0.7;      // of the spans that a rejected fit seems to need
 constexpr std::size_t kFineSpans = 64;  // up to here the smallest number is found exactly, then to this share
 constexpr double kPower = 0.12;         // half of the 1/4 that equal errors ask for: steps do not overshoot
@@ -49,13 +53,17 @@ SpanSearch::SpanSearch(SplineFit& fit, const RunSamples& samples, KnotDensity de
       start_error_(std::numeric_limits<double>::infinity()) {
   const std::size_t vertices = (samples.points.size() + samples.stride - 1) / samples.stride;
   thorough_ = samples.stride > 1 && vertices < kFewVertices;
+  quick_ = vertices < kQuickVertices;
   lowest_ = samples.closed ? 4 : 1;
   highest_ = samples.closed ? vertices : vertices - std::min<std::size_t>(vertices, 3);
 }
 
 // Stopping early loses now and then; a result with so many spans more than the points ask for shows it.
 bool SpanSearch::search() {
+  rounds_ = kSearchRounds;
   std::size_t found = search_below(highest_ + 1);
+  rounds_ = kLastRounds;
+  if (found <= highest_) found = reduced(found);
   const double suspicious = kSuspicious * (first_.total() + 1);
   if (!thorough_ && highest_ <= kFewToRepeat && static_cast<double>(found) > suspicious) {
     thorough_ = true;
@@ -64,6 +72,18 @@ bool SpanSearch::search() {
     found = search_below(found);
   }
   return found <= highest_;
+}
+
+// One span less at a time than the accepted number, as long as that goes well.
+std::size_t SpanSearch::reduced(std::size_t accepted) {
+  const double worth = quick_ ? kFewerOfFew : kFewerAtLast;
+  while (accepted > lowest_) {
+    const auto spans = static_cast<double>(accepted);
+    if (start_error_ * fourth_power(spans / (spans - 1)) > worth || !attempt(accepted - 1)) break;
+    keep();
+    --accepted;
+  }
+  return accepted;
 }
 
 // The smallest number of spans below `accepted` that is accepted, or that itself.
@@ -95,7 +115,7 @@ bool SpanSearch::no_fewer(std::size_t accepted, std::size_t rejected) const {
 
 bool SpanSearch::accept(std::span<const double> breaks) {
   breaks_.assign(breaks.begin(), breaks.end());
-  if (!fit_.fit(breaks_, kRounds) || !fit_.accepted()) return false;
+  if (!fit_.fit(breaks_, kLastRounds) || !fit_.accepted()) return false;
   keep();
   return true;
 }
@@ -112,10 +132,13 @@ bool SpanSearch::try_density(KnotDensity density, std::size_t spans) {
   double smallest = std::numeric_limits<double>::infinity(), power = kPower;
   for (balancings_ = 0; balancings_ <= kMostBalancings; ++balancings_) {
     density.distribute(spans, breaks_);
-    if (!fit_.fit(breaks_, kRounds)) return false;
+    const bool first = !std::isfinite(start_error_);  // its parameters are estimates
+    if (!fit_.fit(breaks_, first ? kLastRounds : rounds_)) return false;
     const bool good = fit_.accepted();
     const double worst = fit_.worst_error();
-    const bool stalled = worst > kProgress * smallest;
+    // With as much progress again, a quick search would still not be there.
+    const bool slow = quick_ && worst * worst > kNearly * smallest;
+    const bool stalled = slow || worst > kProgress * smallest;
     if (worst > smallest) power /= 2;
     smallest = std::min(smallest, worst);
     balance(density, power);

@@ -36,6 +36,7 @@ class SpanSearch {
   };
 
   std::size_t search_below(std::size_t accepted);
+  std::size_t reduced(std::size_t accepted);
   bool attempt(std::size_t spans);
   bool no_fewer(std::size_t accepted, std::size_t rejected) const;
   bool try_density(KnotDensity density, std::size_t spans);
@@ -51,7 +52,8 @@ class SpanSearch {
   std::vector<double> breaks_, wanted_;
   double needed_ = 0;   // spans, by the last fit
   int balancings_ = 0;  // of the knots before the last fit
-  bool thorough_ = false;
+  int rounds_ = 1;
+  bool thorough_ = false, quick_ = false;
   Best best_;
 };
 

@@ -4,23 +4,20 @@
 #include <cmath>
 
 #include "fit/certificate.hpp"
+#include "fit/sample_pairs.hpp"
 
 namespace meshcontour::detail {
 namespace {
 
 constexpr double kLargestMove = 0.45;  // of the gap to a neighbour, so that the order is kept
 constexpr double kHintWeight = 0.2;    // of a sample that is no vertex
-constexpr double kSettled = 1e-4;  // squared slide over squared distance: another step would change nothing
-constexpr int kLastSteps = 2;      // of Newton's method, after the last round of least squares
 
 }  // namespace
 
 SplineFit::SplineFit(const RunSamples& samples) : run_(samples), parameters_(samples.parameters) {
   const std::size_t n = samples.points.size();
   curve_.periodic = samples.closed;
-  errors_.resize(n);
-  accelerations_.resize(n);
-  spans_.resize(n);
+  at_points_.resize(n);
   if (samples.stride > 1) {
     std::vector<double> weights(n, kHintWeight);
     for (std::size_t i = 0; i < n; i += samples.stride) weights[i] = 1;
@@ -47,56 +44,54 @@ void SplineFit::update_pieces() {
   }
 }
 
-// The piece that holds u, which is moved into the domain of a closed curve.
-std::size_t SplineFit::piece_at(double& u, std::size_t hint) const {
-  if (run_.closed) u = u < 0 ? u + run_.end : u >= run_.end ? u - run_.end : u;
-  const double* t = curve_.knots.data() + 3;
-  while (hint > 0 && u < t[hint]) --hint;
-  while (hint + 1 < pieces_.size() && u >= t[hint + 1]) ++hint;
-  return hint;
+// How far each parameter may move in this round.
+void SplineFit::limit_moves() {
+  const std::size_t n = parameters_.size();
+  const double* t = parameters_.data();
+  earliest_.resize(n);
+  latest_.resize(n);
+  double before = run_.closed ? t[0] + run_.end - t[n - 1] : 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double after = i + 1 < n ? t[i + 1] - t[i] : run_.closed ? t[0] + run_.end - t[i] : 0;
+    const double reach = kLargestMove * std::min(before, after);
+    earliest_[i] = t[i] - reach;
+    latest_[i] = t[i] + reach;
+    before = after;
+  }
 }
 
-void SplineFit::move_footpoints(int steps) {
-  const std::size_t n = run_.points.size();
-  std::swap(previous_, parameters_);
-  parameters_.resize(n);
-  std::size_t hint = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double before = i > 0 ? previous_[i - 1] : previous_[n - 1] - run_.end;
-    const double after = i + 1 < n ? previous_[i + 1] : previous_[0] + run_.end;
-    const double reach = kLargestMove * std::min(previous_[i] - before, after - previous_[i]);
-    const bool fixed = !run_.closed && (i == 0 || i + 1 == n);
-    double t = previous_[i];
-    for (int step = 0; step < steps && !fixed; ++step) {
-      double u = t;
-      hint = piece_at(u, hint);
-      const TaylorPiece& piece = pieces_[hint];
-      const double s = u - piece.begin;
-      const Vector gap = piece.position(s) - run_.points[i], velocity = piece.velocity(s);
-      const double speed = velocity.squaredNorm(), curvature = speed + gap.dot(piece.acceleration(s));
-      const double move = -gap.dot(velocity) / (curvature > speed / 4 ? curvature : speed);
-      const double next = std::clamp(t + move, previous_[i] - reach, previous_[i] + reach);
-      const bool settled = (next - t) * (next - t) * speed <= kSettled * gap.squaredNorm();
-      t = next;
-      if (settled) break;
+// One step of Newton's method to the nearest points, nowhere more than twice that of Gauss and Newton.
+void SplineFit::move_footpoints() {
+  const auto move = [&](std::size_t span, std::size_t begin, std::size_t end, double shift) {
+    const TaylorPiece& piece = pieces_[span];
+    for (std::size_t i = begin; i < end; i += 2) {
+      const std::size_t j = std::min(i + 1, end - 1);
+      const Pair t{parameters_[i], parameters_[j]}, s = t + (shift - piece.begin);
+      const PointPair gap = piece.gap(s, {run_.points[i], run_.points[j]}), velocity = piece.velocity(s);
+      const Pair speed = velocity.dot(velocity), curvature = speed + gap.dot(piece.acceleration(s));
+      const Pair next = t - gap.dot(velocity) / largest(curvature, 0.5 * speed);
+      const Pair earliest{earliest_[i], earliest_[j]}, latest{latest_[i], latest_[j]};
+      const Pair kept = smallest(largest(next, earliest), latest);
+      parameters_[i] = kept[0];
+      parameters_[j] = kept[1];
     }
-    parameters_[i] = t;
-  }
+  };
+  for_each_span(curve_.knots.data() + 3, pieces_.size(), parameters_, move);
 }
 
 void SplineFit::measure() {
-  const std::size_t n = run_.points.size();
-  std::size_t hint = 0;
-  vertex_error_ = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    double u = parameters_[i];
-    hint = piece_at(u, hint);
-    const double s = u - pieces_[hint].begin;
-    spans_[i] = static_cast<std::uint32_t>(hint);
-    errors_[i] = (pieces_[hint].position(s) - run_.points[i]).norm();
-    accelerations_[i] = pieces_[hint].acceleration(s).norm();
-    if (i % run_.stride == 0) vertex_error_ = std::max(vertex_error_, errors_[i]);
-  }
+  const auto measure_span = [&](std::size_t span, std::size_t begin, std::size_t end, double shift) {
+    const TaylorPiece& piece = pieces_[span];
+    for (std::size_t i = begin; i < end; i += 2) {
+      const std::size_t j = std::min(i + 1, end - 1);
+      const Pair s = Pair{parameters_[i], parameters_[j]} + (shift - piece.begin);
+      const PointPair gap = piece.gap(s, {run_.points[i], run_.points[j]}), bend = piece.acceleration(s);
+      const Pair error = gap.dot(gap), acceleration = bend.dot(bend);
+      at_points_[i] = {error[0], acceleration[0], span};
+      at_points_[j] = {error[1], acceleration[1], span};
+    }
+  };
+  for_each_span(curve_.knots.data() + 3, pieces_.size(), parameters_, measure_span);
 }
 
 bool SplineFit::fit(std::span<const double> breaks, int rounds) {
@@ -108,7 +103,8 @@ bool SplineFit::fit(std::span<const double> breaks, int rounds) {
                                          curve_.control_points);
     if (!solved) return false;
     update_pieces();
-    move_footpoints(round + 1 < rounds ? 1 : kLastSteps);
+    limit_moves();
+    move_footpoints();
   }
   measure();
   return true;
@@ -116,17 +112,19 @@ bool SplineFit::fit(std::span<const double> breaks, int rounds) {
 
 // A curve whose ends are e0 and e1 from those of a chord is nowhere farther than max(e0, e1) + h^2/8 max
 // |C''| from it; where that is not enough, the Bezier hull decides.
-double SplineFit::chord_bound(std::size_t i) {
+double SplineFit::chord_bound(std::size_t i) const {
   const std::size_t n = run_.points.size(), next = i + run_.stride < n ? i + run_.stride : 0;
+  const AtPoint &first = at_points_[i], &last = at_points_[next];
   const double limit = run_.limits[i / run_.stride];
   const double begin = parameters_[i], end = next > 0 ? parameters_[next] : parameters_[0] + run_.end;
-  double acceleration = std::max(accelerations_[i], accelerations_[next]);
-  for (std::size_t k = spans_[i]; k != spans_[next];) {
+  double acceleration = std::max(first.acceleration, last.acceleration);
+  for (std::size_t k = first.span; k != last.span;) {
     k = k + 1 < pieces_.size() ? k + 1 : 0;
-    acceleration = std::max(acceleration, 2 * pieces_[k].c2.norm());
+    acceleration = std::max(acceleration, 4 * pieces_[k].c2.squaredNorm());
   }
   const double step = end - begin;
-  const double bound = std::max(errors_[i], errors_[next]) + step * step / 8 * acceleration;
+  const double bound =
+      std::sqrt(std::max(first.error, last.error)) + step * step / 8 * std::sqrt(acceleration);
   if (bound <= limit) return bound;
   return chord_deviation(curve_, begin, end, run_.points[i], run_.points[next], limit);
 }
@@ -134,18 +132,23 @@ double SplineFit::chord_bound(std::size_t i) {
 bool SplineFit::accepted() {
   const std::size_t n = run_.points.size();
   span_errors_.assign(pieces_.size(), 0.0);
-  worst_error_ = 0;
-  const auto add = [&](std::size_t i, double error) {
-    span_errors_[spans_[i]] = std::max(span_errors_[spans_[i]], error);
-    if (error > worst_error_) worst_chord_ = i;
-    worst_error_ = std::max(worst_error_, error);
-  };
+  double farthest = 0;
   for (std::size_t i = 0; i < n; i += run_.stride) {
-    add(i, errors_[i] / run_.tolerance);
-    const std::size_t chord = i / run_.stride;
-    if (chord >= run_.limits.size()) continue;
+    double& error = span_errors_[at_points_[i].span];
+    error = std::max(error, at_points_[i].error);
+    farthest = std::max(farthest, error);
+  }
+  vertex_error_ = std::sqrt(farthest);
+  for (double& error : span_errors_) error = std::sqrt(error) / run_.tolerance;
+  worst_error_ = vertex_error_ / run_.tolerance;
+  if (worst_error_ > 1) return false;
+  for (std::size_t chord = 0; chord < run_.limits.size(); ++chord) {
+    const std::size_t i = chord * run_.stride;
     const double bound = chord_bound(i);
-    if (bound > run_.limits[chord]) add(i, bound / run_.limits[chord]);
+    if (bound <= run_.limits[chord]) continue;
+    double& error = span_errors_[at_points_[i].span];
+    error = std::max(error, bound / run_.limits[chord]);
+    worst_error_ = std::max(worst_error_, error);
   }
   return worst_error_ <= 1;
 }

@@ -34,35 +34,36 @@ class SplineFit {
   /// Largest distance of a point to the curve.
   double vertex_error() const { return vertex_error_; }
 
-  /// Whether all points lie within the tolerance and the curve within the limits of all chords. On the way,
-  /// `excess` of the farthest chord and point in each span, relative to what is allowed.
+  /// Whether all points lie within the tolerance and the curve within the limits of all chords.
   bool accepted();
 
-  /// For each span, the largest error of its points as a multiple of the tolerance, or of its chords as one
-  /// of the excess over their limits; after accepted().
+  /// For each span, the largest error of its points as a multiple of the tolerance, and, if all points are
+  /// within that, of its chords as a multiple of their limits where beyond; after accepted().
   const std::vector<double>& span_errors() const { return span_errors_; }
   double worst_error() const { return worst_error_; }
-  std::size_t worst_chord() const { return worst_chord_; }
 
  private:
+  // The curve at a point's parameter.
+  struct AtPoint {
+    double error, acceleration;  // squares of its distance to the point and of |C''|
+    std::size_t span;
+  };
+
   void set_knots(std::span<const double> breaks);
   void update_pieces();
-  void move_footpoints(int steps);
+  void limit_moves();
+  void move_footpoints();
   void measure();
-  std::size_t piece_at(double& u, std::size_t hint) const;
-  double chord_bound(std::size_t i);
+  double chord_bound(std::size_t i) const;
 
   const RunSamples& run_;
-  std::vector<double> parameters_, previous_;
+  std::vector<double> parameters_, earliest_, latest_;
   CubicLeastSquares solver_;
   BSplineCurve curve_;
   std::vector<TaylorPiece> pieces_;
-  std::vector<double> errors_;         // distance of each point to the curve at its parameter
-  std::vector<double> accelerations_;  // |C''| there
-  std::vector<std::uint32_t> spans_;   // the piece it lies on
+  std::vector<AtPoint> at_points_;
   std::vector<double> span_errors_;
   double vertex_error_ = 0, worst_error_ = 0;
-  std::size_t worst_chord_ = 0;
 };
 
 }  // namespace meshcontour::detail
