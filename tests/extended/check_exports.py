@@ -105,16 +105,17 @@ def check_polyline_dxf(path, wanted, size):
 
 
 def distance_to(loop, points):
-    """To the chords of the densely sampled loop."""
+    """To the chords of the densely sampled loop that meet at the nearest sample, which is hardly more than to all."""
     chains = [s.dense for s in loop.segments]
-    a = np.concatenate([c[:-1] for c in chains])
-    b = np.concatenate([c[1:] for c in chains])
-    best = np.full(len(points), np.inf)
-    for start in range(0, len(a), 512):
-        p, q = a[None, start:start + 512], b[None, start:start + 512]
-        d = q - p
-        t = np.clip(np.sum((points[:, None] - p) * d, axis=2) / np.maximum(np.sum(d * d, axis=2), 1e-300), 0, 1)
-        best = np.minimum(best, np.linalg.norm(points[:, None] - p - t[..., None] * d, axis=2).min(axis=1))
+    samples = np.concatenate(chains)
+    last = np.cumsum([len(c) for c in chains]) - 1
+    best, nearest = cKDTree(samples).query(points)
+    for first in (nearest - 1, nearest):
+        inside = (first >= 0) & ~np.isin(first, last)
+        p, start, chord = points[inside], samples[first[inside]], samples[first[inside] + 1] - samples[first[inside]]
+        share = np.sum((p - start) * chord, axis=1) / np.maximum(np.sum(chord * chord, axis=1), 1e-300)
+        foot = start + np.clip(share, 0, 1)[:, None] * chord
+        best[inside] = np.minimum(best[inside], np.linalg.norm(p - foot, axis=1))
     return best
 
 

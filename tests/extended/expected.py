@@ -33,25 +33,32 @@ class Loop:
         return self.segments[0].points[0], self.segments[-1].points[-1]
 
 
-def rotation(axis, angle):
-    x, y, z = axis
-    k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.eye(3) + np.sin(angle) * k + (1 - np.cos(angle)) * (k @ k)
+def turned(vector, axis, angles):
+    """The vector turned about the axis by each of the angles [Rodrigues]."""
+    along = axis * (axis @ vector)
+    return along + np.outer(np.cos(angles), vector - along) + np.outer(np.sin(angles), np.cross(axis, vector))
+
+
+def ellipse_axes(s):
+    """Centre, half axes as vectors, and the angle of the start."""
+    center, axis, major = (np.array(s[k], float) for k in ("center", "axis", "major"))
+    minor = s["ratio"] * np.cross(axis, major)
+    start = np.array(s["start"], float) - center
+    return center, major, minor, np.arctan2(start @ minor / (minor @ minor), start @ major / (major @ major))
 
 
 def evaluator(s):
-    """The segment as a function of a fraction of its parameter."""
+    """The segment as a function of fractions of its parameter."""
     start, end = np.array(s["start"], float), np.array(s["end"], float)
     if s["type"] == "line":
         return lambda u: start + np.outer(u, end - start)
     if s["type"] in ("arc", "circle"):
-        center, axis, angle = np.array(s["center"]), np.array(s["axis"]), s["angle"]
-        return lambda u: np.array([center + rotation(axis, t * angle) @ (start - center) for t in u])
+        center, axis, angle = np.array(s["center"]), np.array(s["axis"], float), s["angle"]
+        return lambda u: center + turned(start - center, axis, np.asarray(u) * angle)
     if s["type"] == "ellipse":
-        center, axis, major = (np.array(s[k], float) for k in ("center", "axis", "major"))
-        minor = s["ratio"] * np.cross(axis, major)
-        first = np.arctan2((start - center) @ minor / (minor @ minor), (start - center) @ major / (major @ major))
-        return lambda u: np.array([center + np.cos(first + t * s["angle"]) * major + np.sin(first + t * s["angle"]) * minor for t in u])
+        center, major, minor, first = ellipse_axes(s)
+        at = lambda u: first + np.asarray(u) * s["angle"]
+        return lambda u: center + np.outer(np.cos(at(u)), major) + np.outer(np.sin(at(u)), minor)
     knots, points, degree = np.array(s["knots"], float), np.array(s["control_points"], float), s["degree"]
     weights = np.array(s.get("weights", np.ones(len(points))))
     spline = BSpline(knots, np.column_stack([points * weights[:, None], weights]), degree)
@@ -79,28 +86,24 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)
 def arc_length(s, matrix):
     """By Gauss quadrature between the breaks, the speed by an exact derivative of what is integrated."""
     linear = matrix[:3, :3]
-    total = 0.0
     at = evaluator(s)
     if s["type"] in ("line",):
         return float(np.linalg.norm(linear @ (at([1.0]) - at([0.0]))[0]))
     pieces = breaks(s)
     if len(pieces) < 32:  # a model's own curve may be of few and wild ones
         pieces = np.unique(np.concatenate([np.linspace(a, b, 17) for a, b in zip(pieces[:-1], pieces[1:])]))
-    for a, b in zip(pieces[:-1], pieces[1:]):
-        u = (a + b) / 2 + NODES * (b - a) / 2
-        total += float(np.sum(WEIGHTS * np.linalg.norm(speed(s, u) @ linear.T, axis=1)) * (b - a) / 2)
-    return total
+    middles, halves = (pieces[1:] + pieces[:-1]) / 2, np.diff(pieces) / 2
+    nodes = (middles[:, None] + np.outer(halves, NODES)).ravel()
+    return float(np.outer(halves, WEIGHTS).ravel() @ np.linalg.norm(speed(s, nodes) @ linear.T, axis=1))
 
 
 def speed(s, u):
     start = np.array(s["start"], float)
     if s["type"] in ("arc", "circle"):
         center, axis, angle = np.array(s["center"]), np.array(s["axis"], float), s["angle"]
-        return np.array([angle * np.cross(axis, rotation(axis, t * angle) @ (start - center)) for t in u])
+        return angle * np.cross(axis, turned(start - center, axis, np.asarray(u) * angle))
     if s["type"] == "ellipse":
-        center, axis, major = (np.array(s[k], float) for k in ("center", "axis", "major"))
-        minor = s["ratio"] * np.cross(axis, major)
-        first = np.arctan2((start - center) @ minor / (minor @ minor), (start - center) @ major / (major @ major))
+        _, major, minor, first = ellipse_axes(s)
         t = first + np.asarray(u) * s["angle"]
         return s["angle"] * (np.outer(np.cos(t), minor) - np.outer(np.sin(t), major))
     knots, points, degree = np.array(s["knots"], float), np.array(s["control_points"], float), s["degree"]

@@ -1,10 +1,15 @@
 #!/usr/bin/env python3
 """Exports models with export_all into a folder that is removed afterwards, and checks what other programs read.
 Usage: read_back.py EXPORT_ALL [FILE or FOLDER]...; without files, models made by export_all itself. Of a folder its
-models are read, .xz files are unpacked first. Exit code 77: the folders are absent or hold none."""
+models are read, .xz files are unpacked first. Files are checked by a process a processor. Exit code 77: the folders are
+absent or hold none."""
 
+import concurrent.futures
+import contextlib
+import io
 import lzma
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -32,12 +37,18 @@ def unpacked(file, folder):
 
 
 def check_file(program, file, work):
+    """Whether it failed, and what is to be printed."""
     plain = unpacked(file, work)
-    subprocess.run([program, work / "out", plain], check=True)
-    status = check_exports.main([work / "out" / plain.stem])
+    text = io.StringIO()
+    with contextlib.redirect_stdout(text):
+        done = subprocess.run([program, work / "out", plain], capture_output=True, text=True)
+        if done.returncode != 0:
+            print(f"{plain.name}: not exported: {done.stderr.strip()}")
+        failed = done.returncode != 0 or check_exports.main([work / "out" / plain.stem]) != 0
     if plain != file:
         plain.unlink()
-    return status
+    shutil.rmtree(work / "out" / plain.stem, ignore_errors=True)
+    return failed, text.getvalue()
 
 
 def main(program, *names):
@@ -50,7 +61,15 @@ def main(program, *names):
         if not files:
             print("skipped: no models in", *names)
             return SKIPPED
-        return max([check_file(program, file, work) for file in files])
+        failures = 0
+        with concurrent.futures.ProcessPoolExecutor() as pool:
+            checks = [pool.submit(check_file, program, file, work) for file in files]
+            for check in checks:
+                failed, text = check.result()
+                failures += failed
+                print(text, end="", flush=True)
+        print(f"{len(files)} models, {failures} of them read back differently")
+        return 1 if failures else 0
 
 
 if __name__ == "__main__":

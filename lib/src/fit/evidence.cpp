@@ -12,6 +12,7 @@ namespace meshcontour::detail {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr std::size_t kManyChords = 64;
 constexpr double kTangent = 0.02 * std::numbers::pi / 180;
 
 double angle_between(const Vector& a, const Vector& b) {
@@ -40,7 +41,9 @@ class Judge {
   void judge() {
     for (Piece& piece : pieces_) {
       if (piece.chords() >= 4 && piece.is_arc()) piece.recognized = is_long_arc(piece);
-      if (piece.chords() >= 3 && piece.is_line()) piece.recognized = off_beyond(piece) >= 20 * noise(piece);
+      if (piece.chords() >= 3 && piece.is_line()) {
+        piece.recognized = off_beyond(piece) >= 20 * noise(piece) || ends_far_off(piece);
+      }
     }
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
       if (pieces_[k].chords() == 3 && pieces_[k].is_arc()) pieces_[k].recognized = is_three_chord_arc(k);
@@ -99,6 +102,13 @@ class Judge {
     return steps > 0.8 * sum;
   }
 
+  // Where chords are short, the first vertices beyond a joint are hardly off, those a quarter of the piece
+  // away are: by 100 times what the points are off the piece. Pieces of smooth curves that only look like
+  // arcs or lines leave it by 5 to 25 times that much.
+  bool ends_far_off(const Piece& piece) const {
+    return piece.chords() >= kManyChords && off_beyond(piece, piece.chords() / 4) >= 100 * noise(piece);
+  }
+
   bool is_long_arc(const Piece& piece) const {
     const auto& arc = std::get<CircularArc>(piece.curve);
     const bool steps = even(piece);
@@ -108,6 +118,7 @@ class Judge {
     double factor = piece.chords() < 8 ? 20 : 10;
     if (steps) factor /= 3;
     if (off >= factor * noise(piece)) return true;
+    if (ends_far_off(piece)) return true;
     // Noise hides the first vertices beyond a joint, not those a quarter of the arc away.
     return piece.chords() >= 12 && noise_like(piece) &&
            off_beyond(piece, piece.chords() / 4) >= 20 * noise(piece);

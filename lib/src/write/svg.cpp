@@ -17,7 +17,8 @@ using Point2 = Eigen::Vector2d;
 using Box2 = Eigen::AlignedBox2d;
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kEdgeOn = 1e-9;        // axis ratio of an ellipse that is seen as a line
+constexpr double kEdgeOn =
+    1e-6;  // axis ratio of an ellipse that is seen as a line; readers lose digits by less
 constexpr double kMargin = 0.03;        // of the picture's diagonal, on each side
 constexpr double kStrokeWidth = 0.002;  // of the picture's diagonal
 constexpr double kPrecision = 1e-10;    // of the picture's diagonal
