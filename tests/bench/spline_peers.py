@@ -3,8 +3,8 @@
 
 Control points at equal true distance: the fewest that the other library needs, over a grid of its own
 tolerances, to be as near to the true curve as ours is. Times: ours beside one call of FITPACK with the smoothing
-factor, found before by bisection, that just keeps the tolerance at the points. Run by the Python of
-scripts/extended_env.
+factor, found before by bisection, that just keeps the tolerance at the points; of FITPACK's routine alone, without the
+Python around it. Ours includes the search for the knots and the certificate. Run by the Python of scripts/extended_env.
 
 usage: spline_peers.py FILE.json
 """
@@ -18,7 +18,7 @@ from OCP.collections import Array1_gp_Pnt
 from OCP.GeomAbs import GeomAbs_C2
 from OCP.GeomAPI import GeomAPI_PointsToBSpline
 from OCP.gp import gp_Pnt
-from scipy.interpolate import BSpline, splprep
+from scipy.interpolate import BSpline, _fitpack, splprep
 from scipy.spatial import cKDTree
 
 CURVE_SAMPLES = 6000
@@ -129,18 +129,26 @@ def keeping_smoothing(points, closed, tolerance):
     return low
 
 
+def fitpack_seconds(points, closed, smoothing):
+    """Number of control points and the shortest time of a call of parcur or clocur, as splprep calls it."""
+    rows = np.vstack([points, points[:1]]) if closed else points
+    count, none = len(rows), np.array([], float)
+    shortest = np.inf
+    for _ in range(3 if count > 10_000 else 20 if count > 100 else 500):
+        parameters = np.zeros(count)
+        start = time.process_time()
+        knots, *_ = _fitpack._parcur(rows.ravel(), np.ones(count), parameters, 0.0, 1.0, 3, 0, 0, smoothing, none,
+                                     count + 6, none, np.array([], np.int32), int(closed))
+        shortest = min(shortest, time.process_time() - start)
+    return len(knots) - 4 - (3 if closed else 0), shortest
+
+
 def compare_times(data, truths):
     print("run           points  ours: controls  milliseconds  FITPACK: controls  milliseconds  share")
     for fit in data["sizes"]:
         closed, points = truths[fit["run"]].closed, np.array(fit["points"])
         smoothing = keeping_smoothing(points, closed, fit["tolerance"])
-        rows = (np.vstack([points, points[:1]]) if closed else points).T
-        shortest = np.inf
-        for _ in range(3 if len(points) > 10_000 else 20):
-            start = time.process_time()
-            (knots, _, _), _ = splprep(rows, s=smoothing, per=closed, quiet=1)
-            shortest = min(shortest, time.process_time() - start)
-        count = len(knots) - 4 - (3 if closed else 0)
+        count, shortest = fitpack_seconds(points, closed, smoothing)
         print(f"{fit['run']:12} {len(points):7} {fit['control_count']:15} {1e3 * fit['seconds']:13.3f}"
               f" {count:18} {1e3 * shortest:13.3f} {fit['seconds'] / shortest:6.2f}", flush=True)
 

@@ -20,14 +20,13 @@ constexpr double kFewerUntouched = 1.3;     // expected with one span less, had 
 constexpr double kFewerBalanced = 1.08;     // or had they been
 constexpr double kFewerAtLast = 2;          // or for the last attempts, which get more rounds
 constexpr double kFewerOfFew = 1.1;         // or where quickness is worth more than a control point
-constexpr std::size_t kQuickVertices =
-    48;  // which it is up to here: loops of so few vertices come in thousands
-constexpr std::size_t kFewVertices = 32;  // so few that nothing is stopped early
+constexpr std::size_t kQuickVertices = 40;  // which it is up to here: so short loops come in thousands
+constexpr std::size_t kFewVertices = 32;    // so few that nothing is stopped early
 
 constexpr double kSuspicious = 1.4;          // times the spans that the points ask for
 constexpr std::size_t kFewToRepeat = 1'000;  // spans at most, for a search to be repeated thoroughly
 
-constexpr double kFirstShare = 1;       // of the spans that the density says
+constexpr double kFirstShare = 0.95;    // of the spans that the density says; all of them if quickness counts
 constexpr double kNextShare = 0.7;      // of the spans that a rejected fit seems to need
 constexpr std::size_t kFineSpans = 64;  // up to here the smallest number is found exactly, then to this share
 constexpr double kPower = 0.12;         // half of the 1/4 that equal errors ask for: steps do not overshoot
@@ -53,14 +52,14 @@ SpanSearch::SpanSearch(SplineFit& fit, const RunSamples& samples, KnotDensity de
       start_error_(std::numeric_limits<double>::infinity()) {
   const std::size_t vertices = (samples.points.size() + samples.stride - 1) / samples.stride;
   thorough_ = samples.stride > 1 && vertices < kFewVertices;
-  quick_ = vertices < kQuickVertices;
+  quick_ = !thorough_ && vertices < kQuickVertices;
   lowest_ = samples.closed ? 4 : 1;
   highest_ = samples.closed ? vertices : vertices - std::min<std::size_t>(vertices, 3);
 }
 
 // Stopping early loses now and then; a result with so many spans more than the points ask for shows it.
 bool SpanSearch::search() {
-  rounds_ = kSearchRounds;
+  rounds_ = thorough_ ? kLastRounds : kSearchRounds;
   std::size_t found = search_below(highest_ + 1);
   rounds_ = kLastRounds;
   if (found <= highest_) found = reduced(found);
@@ -89,7 +88,7 @@ std::size_t SpanSearch::reduced(std::size_t accepted) {
 // The smallest number of spans below `accepted` that is accepted, or that itself.
 std::size_t SpanSearch::search_below(std::size_t accepted) {
   std::size_t rejected = lowest_ - 1;
-  std::size_t spans = clamped(kFirstShare * start_.total(), lowest_, accepted - 1);
+  std::size_t spans = clamped((quick_ ? 1 : kFirstShare) * start_.total(), lowest_, accepted - 1);
   std::size_t further = 0;  // grows with each rejection: few attempts even if none succeeds
   while (accepted - rejected > 1 + (accepted <= highest_ ? accepted / kFineSpans : 0)) {
     const bool good = attempt(spans);
