@@ -13,7 +13,7 @@ struct RemeshOptions {
   std::size_t base_triangles = 200;  ///< of the base mesh about, up to four times as many; more where patches,
                                      ///< topology or the tolerance need them
   double tolerance = 0;  ///< distance of both surfaces at which base triangles become finer, as far as that
-                         ///< helps; 0: 0.2 % of the box diagonal; model units
+                         ///< helps; 0: 0.5 % of the box diagonal; model units
   unsigned threads = 0;  ///< 0: one per processor
 };
 

@@ -66,7 +66,7 @@ class Coarsener {
   // What the queue holds of the vertex is out of date.
   void push(Index v) {
     ++versions_[v];
-    if (mesh_.kind(v) == Kind::Fixed) return;
+    if (mesh_.kind(v) == Kind::Fixed || mesh_.valence(v) > SelfParameterization::kMostEdges) return;
     find_ways(v);
     if (!ways_.empty()) queue_.push({ways_.front().first, v, versions_[v]});
   }

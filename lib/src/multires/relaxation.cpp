@@ -93,12 +93,13 @@ std::vector<Index> Relaxation::flipped() const {
 }
 
 std::size_t Relaxation::unfold() {
-  std::vector<bool> chosen(finest_.vertex_count, false);
+  std::vector<bool> chosen(finest_.vertex_count, false), corner = chosen;
   const std::vector<Index> turned = flipped();
   for (const Index t : turned) {
     for (const Index v : finest_.triangles[t]) {
+      if (corner[v]) continue;
       around(v);
-      chosen[v] = true;
+      corner[v] = chosen[v] = true;
       for (const Index h : ring_) chosen[finest_.end(h)] = true;
     }
   }

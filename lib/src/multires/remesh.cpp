@@ -27,10 +27,11 @@ constexpr unsigned kLeastLevels = 2, kMostLevels = 8;
 constexpr int kSmoothings = 3;         // more make coefficients smaller and the distance larger
 constexpr int kUnfoldings = 20;        // rounds
 constexpr int kAttempts = 6;           // at a mesh without triangles that are turned over, near enough
+constexpr int kMostStuck = 2;          // attempts without much progress
 constexpr double kProgress = 0.9;      // beside the attempt before
 constexpr double kMostFlipped = 1e-4;  // of the triangles: no further attempt
 constexpr double kNearEnough = 0.7;    // of the tolerance
-constexpr double kTolerance = 2e-3;    // of the size
+constexpr double kTolerance = 5e-3;    // of the size
 
 MeshLevel level_of(const Shell& shell) {
   const std::vector<std::size_t> patches = detail::patch_of_triangles(shell);
@@ -111,17 +112,19 @@ class Remesher {
 
   Remesh run() {
     std::optional<Remesh> best;
+    int stuck = 0;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
       Remesh result = cover();
       const bool flipped = is_flipped(result), far = result.error > tolerance_;
-      if (flipped) keep_flipped(result);
+      const std::vector<bool> kept = kept_;
+      if (flipped || far) keep_flipped(result);
       if (far) keep_far(result);
       // Less is turned over, or the same is and it is nearer.
       const auto rank = [&](const Remesh& r) { return std::pair{is_flipped(r) ? r.flipped : 0, r.error}; };
-      const bool better = !best || rank(result) < rank(*best),
-                 stuck = !better || (best && !much_better(result, *best));
+      const bool better = !best || rank(result) < rank(*best);
+      stuck += !better || (best && !much_better(result, *best));
       if (better) best = std::move(result);
-      if (stuck || (!flipped && !far)) break;
+      if (stuck == kMostStuck || kept == kept_) break;
     }
     return *std::move(best);
   }

@@ -17,7 +17,6 @@ constexpr double kLeastPlaneShape = 0.2;  // of a triangle in the plane, as a sh
 constexpr double kLeastTurnCosine = 0.6;  // of the turn of a curve that is straightened there
 constexpr double kMostSector = 0.9 * std::numbers::pi;  // between sharp edges that share a triangle
 constexpr double kRounding = 1e-12;                     // of such a shape
-constexpr std::uint32_t kMostEdges = 16;                // at a vertex that a collapse leaves
 
 // 1 for an equilateral triangle, 0 for a line; below 0 in the plane if it runs clockwise.
 double shape(double doubled_area, double squared_sides) {
@@ -186,6 +185,7 @@ bool SelfParameterization::fits_between(Index first, Index second) const {
 }
 
 bool SelfParameterization::flip(Index h) {
+  if (kept_[mesh_.origin(mesh_.start(h))] && kept_[mesh_.origin(mesh_.end(h))]) return false;
   if (!mesh_.can_flip(h)) return false;
   const Index g = mesh_.twin(h), after_h = CollapseMesh::next(h), after_g = CollapseMesh::next(g),
               before_h = CollapseMesh::previous(h), before_g = CollapseMesh::previous(g);

@@ -15,6 +15,8 @@ namespace meshcontour::detail {
 /// not done. Sharp edges are laid out as straight lines by their length, so that curves stay curves.
 class SelfParameterization {
  public:
+  static constexpr std::uint32_t kMostEdges = 16;  ///< at a vertex that was merged with another
+
   /// @param shell          an orientable manifold.
   /// @param most_segments  of the shell's edges that one sharp edge may come to stand for.
   /// @param kept           one a point of the shell: whether it must stay.
