@@ -185,6 +185,10 @@ def check_obj_curves(path, wanted, size):
 def check_glb(path, wanted, size):
     """Chords of the loops, in metres with y up, and the triangles of all instances."""
     lines, triangles = readers.read_glb(path)
+    require(triangles == truth.triangles(path.parent), f"{triangles} triangles")
+    if not wanted:
+        require(len(lines) == 0, f"{len(lines)} lines of no loops")
+        return f"no lines, {triangles} triangles"
     model = lines[..., [0, 2, 1]] * [1, -1, 1] / (truth.millimetres(path.parent) / 1000)
     ends = model.reshape(-1, 3)
     chains = [w.polygon if w.polygon is not None else np.concatenate([s.dense for s in w.segments]) for w in wanted]
@@ -196,7 +200,6 @@ def check_glb(path, wanted, size):
     length += sum(np.linalg.norm(np.diff(c, axis=0), axis=1).sum() for c in closed)
     total = np.linalg.norm(model[:, 0] - model[:, 1], axis=1).sum()
     require(abs(total - length) <= 1e-3 * length, f"lines of length {total!r}, not {length!r}")
-    require(triangles == truth.triangles(path.parent), f"{triangles} triangles")
     return f"{len(lines)} lines, {triangles} triangles"
 
 
