@@ -62,6 +62,8 @@ inline constexpr Choices<PatchSource, 5> kPatchSources = {{{"auto", PatchSource:
                                                            {"none", PatchSource::None}}};
 inline constexpr Choices<BoundaryRule, 2> kBoundaryRules = {
     {{"reflect", BoundaryRule::Reflect}, {"trig", BoundaryRule::Trigonometric}}};
+inline constexpr Choices<AttributeRule, 2> kAttributeRules = {
+    {{"midpoint", AttributeRule::Midpoint}, {"butterfly", AttributeRule::Butterfly}}};
 inline constexpr Choices<SimplifyMethod, 3> kSimplifyMethods = {
     {{"auto", SimplifyMethod::Automatic}, {"wavelet", SimplifyMethod::Wavelet}, {"qem", SimplifyMethod::Qem}}};
 inline constexpr Choices<SimplifyGoal, 3> kSimplifyGoals = {

@@ -100,6 +100,8 @@ void add_model_options(Group group, CommandLine& line) {
                   "Steps of butterfly subdivision; contours stay curves of their own", 12);
   group.add_choice("--boundary-rule", job.subdivide.boundary, kBoundaryRules,
                    "Butterfly stencils at borders");
+  group.add_choice("--attribute-rule", job.subdivide.attributes, kAttributeRules,
+                   "Colours and texture coordinates of the points that subdivision adds");
   const auto parse_simplify = [&job](const std::string& text) { parse_simplification(text, job.simplify); };
   group.add_parsed("--simplify", "GOAL", parse_simplify,
                    "Fewer triangles: error:LENGTH (largest distance), ratio:SHARE or triangles:N");

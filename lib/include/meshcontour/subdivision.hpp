@@ -13,8 +13,15 @@ enum class BoundaryRule {
   Trigonometric,  ///< stencils of extraordinary boundary vertices, C1 there [Zorin & Schroeder 2000]
 };
 
+/// How colours and texture coordinates of new points follow from those around.
+enum class AttributeRule {
+  Midpoint,   ///< the mean of the ends of an edge
+  Butterfly,  ///< as the points themselves; colours are held between 0 and 1
+};
+
 struct SubdivisionOptions {
   BoundaryRule boundary = BoundaryRule::Reflect;
+  AttributeRule attributes = AttributeRule::Midpoint;
   bool creases = true;  ///< patch borders inside a shell stay curves of their own
   unsigned threads = 0; ///< 0: one per processor
 };
@@ -27,8 +34,8 @@ struct SubdivisionOptions {
 std::vector<double> butterfly_weights(std::size_t valence);
 
 /// The shell after `levels` steps of modified butterfly subdivision: every triangle becomes four a step, old points
-/// stay where they are and keep their numbers. Patches, colours and corner normals are inherited; what points carry
-/// is the mean of both ends at new ones.
+/// stay where they are and keep their numbers. Patches, colours and corner normals are inherited, colours and texture
+/// coordinates of points by the rule chosen for them.
 ///
 /// Border curves depend on border points alone; with `creases` so do the borders between patches.
 ///

@@ -19,8 +19,8 @@ struct SubdivisionConnectivity {
 /// Finds out whether the triangles of a shell, in whatever order, come from subdivisions [Taubin 2002];
 /// linear.
 ///
-/// The four children of a triangle must be of one patch. Shells with creases inside patches, without being an
-/// orientable manifold or with parts of which just some were subdivided give 0 levels. Where a part has
+/// The four children of a triangle must be of one patch. Shells that are no orientable manifold, or with parts of
+/// which just some were subdivided, give 0 levels. Creases inside patches do not matter, and the base has none. Where a part has
 /// several coarser meshes (a regular torus, a strip) the first that is found counts.
 SubdivisionConnectivity find_subdivision(const Shell& shell);
 

@@ -210,7 +210,6 @@ void number_vertices(const Steps& found, SubdivisionConnectivity& out) {
 
 SubdivisionConnectivity find_subdivision(const Shell& shell) {
   SubdivisionConnectivity out;
-  if (!shell.creases.empty()) return out;
   Steps found;
   try {
     found = all_steps(shell);

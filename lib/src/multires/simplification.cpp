@@ -81,7 +81,9 @@ Remesh remesh_for(const Shell& shell, const SimplifyOptions& options, std::size_
 std::optional<detail::WaveletReduction> wavelet_way(const Shell& shell, const SimplifyOptions& options,
                                                     std::size_t triangles, std::optional<Remesh>& remesh) {
   if (options.method == SimplifyMethod::Qem) return std::nullopt;
-  const SubdivisionConnectivity found = find_subdivision(shell);
+  // Creases would be lost; a remesh keeps them as curves.
+  const SubdivisionConnectivity found =
+      shell.creases.empty() ? find_subdivision(shell) : SubdivisionConnectivity{};
   const bool chosen = options.method == SimplifyMethod::Wavelet,
              largest = options.goal == SimplifyGoal::Error;
   const bool reaches = largest || found.base.triangles.size() <= triangles;

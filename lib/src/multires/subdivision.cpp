@@ -7,6 +7,7 @@
 #include "multires/level.hpp"
 #include "multires/patches.hpp"
 #include "multires/predict.hpp"
+#include "multires/stencil.hpp"
 
 namespace meshcontour {
 namespace {
@@ -15,8 +16,9 @@ using detail::MeshLevel;
 
 MeshLevel level_of(const Shell& shell, bool creases) {
   const std::vector<std::size_t> patches = detail::patch_of_triangles(shell);
-  return detail::make_level(shell.triangles, static_cast<Index>(shell.points.size()),
-                            [&](std::size_t f, std::size_t g) { return creases && patches[f] != patches[g]; });
+  return detail::make_level(
+      shell.triangles, static_cast<Index>(shell.points.size()),
+      [&](std::size_t f, std::size_t g) { return creases && patches[f] != patches[g]; });
 }
 
 // Corner normals of the children, the new ones half way between their parent's corners.
@@ -32,14 +34,22 @@ std::vector<Vector> refined_normals(const std::vector<Vector>& normals) {
   return out;
 }
 
-// A value a point, the new points half way between the ends of their edges.
+// A value a point; new points get theirs by the rule for attributes.
 template <typename Value>
-void refine(const MeshLevel& level, std::vector<Value>& values) {
+void refine(const MeshLevel& level, const SubdivisionOptions& options, std::vector<Value>& values) {
   if (values.empty()) return;
   values.reserve(values.size() + level.edge_count());
-  for (const Index h : level.first_halfedge) {
-    const Value middle = 0.5 * (values[level.start(h)] + values[level.end(h)]);
-    values.push_back(middle);
+  const detail::Stencils stencils(level, options.boundary);
+  std::vector<detail::Stencils::Term> terms;
+  for (Index e = 0; e < level.edge_count(); ++e) {
+    const Index h = level.first_halfedge[e];
+    Value value = 0.5 * (values[level.start(h)] + values[level.end(h)]);
+    if (options.attributes == AttributeRule::Butterfly) {
+      stencils.of_edge(e, terms);
+      value.setZero();
+      for (const auto& [vertex, weight] : terms) value += weight * values[vertex];
+    }
+    values.push_back(value);
   }
 }
 
@@ -53,13 +63,14 @@ Shell subdivided(const Shell& shell, unsigned levels, const SubdivisionOptions& 
   MeshLevel level = level_of(shell, options.creases);
   for (unsigned step = 0; step < levels; ++step) {
     if (fine.points.size() + level.edge_count() > std::numeric_limits<Index>::max() / 6) {
-      throw Error(ErrorCode::Usage, fmt::format("shell {}: {} subdivisions give too many points",
-                                                printable(shell.id), levels));
+      throw Error(ErrorCode::Usage,
+                  fmt::format("shell {}: {} subdivisions give too many points", printable(shell.id), levels));
     }
     fine.points.resize(level.vertex_count + level.edge_count(), Point::Zero());
     detail::add_prediction(level, options, 1, fine.points);
-    refine(level, fine.point_colors);
-    refine(level, fine.texture_coordinates);
+    refine(level, options, fine.point_colors);
+    for (Eigen::Vector4d& color : fine.point_colors) color = color.cwiseMax(0).cwiseMin(1);
+    refine(level, options, fine.texture_coordinates);
     level = detail::quadrisected(level);
     fine.corner_normals = refined_normals(fine.corner_normals);
     for (Patch& patch : fine.patches) {

@@ -228,6 +228,38 @@ TEST_CASE("detail_sizes: large where a point was moved, nothing without subdivis
   CHECK(detail_sizes(surfaces::height_field(5, false)).empty());
 }
 
+TEST_CASE("find_subdivision: patches and creases inside them do not matter", "[multires]") {
+  Shell fine = subdivided(surfaces::bumpy_sphere(1), 2);
+  REQUIRE(fine.patches.size() == 8);
+  const SubdivisionConnectivity without = find_subdivision(fine);
+  fine.creases = {{0, fine.triangles[0][1]}};
+  const SubdivisionConnectivity with = find_subdivision(fine);
+  CHECK(with.levels >= 3);
+  CHECK(with.order == without.order);
+  CHECK(with.base.patches.size() == 8);
+  CHECK(with.base.creases.empty());
+}
+
+TEST_CASE("subdivided: attributes follow the points or the middles of edges", "[multires]") {
+  Shell shell = surfaces::height_field(6, false);
+  for (const Point& p : shell.points) {
+    shell.texture_coordinates.push_back(p.head<2>());
+    shell.point_colors.push_back(p.x() > 0.4 ? Eigen::Vector4d::Ones() : Eigen::Vector4d(0, 0.5, 0, 1));
+  }
+  const Shell middles = subdivided(shell, 2),
+              butterfly = subdivided(shell, 2, {.attributes = AttributeRule::Butterfly});
+  double apart = 0, between = 0;
+  for (std::size_t v = 0; v < butterfly.points.size(); ++v) {
+    CHECK((butterfly.texture_coordinates[v] - butterfly.points[v].head<2>()).norm() <= 1e-14);
+    apart = std::max(apart, (middles.texture_coordinates[v] - middles.points[v].head<2>()).norm());
+    CHECK(butterfly.point_colors[v].minCoeff() >= 0);
+    CHECK(butterfly.point_colors[v].maxCoeff() <= 1);
+    between = std::max(between, (middles.point_colors[v] - butterfly.point_colors[v]).norm());
+  }
+  CHECK(apart > 1e-3);
+  CHECK(between > 1e-3);
+}
+
 TEST_CASE("find_subdivision: other meshes are none", "[multires]") {
   Shell shell = surfaces::bumpy_sphere(2);
   shell.triangles.pop_back();
