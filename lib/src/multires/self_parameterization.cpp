@@ -130,8 +130,8 @@ bool SelfParameterization::gather(Index v, Index kept) {
   if (found == ring_.vertices.end()) return false;
   ring_.kept = static_cast<std::size_t>(found - ring_.vertices.begin());
   if (closed) {
-    std::ranges::rotate(ring_.out, ring_.out.begin() + static_cast<std::ptrdiff_t>(ring_.kept));
-    std::ranges::rotate(ring_.vertices, found);
+    std::rotate(ring_.out.begin(), ring_.out.begin() + static_cast<std::ptrdiff_t>(ring_.kept), ring_.out.end());
+    std::rotate(ring_.vertices.begin(), found, ring_.vertices.end());
     ring_.kept = 0;
   }
   ring_.other = ring_.kept;

@@ -44,7 +44,7 @@ void check_corners(const NetFaces& faces, const Fail& fail) {
 // The same corners in the same cycle, either way round, give the same list.
 std::vector<Index> canonical(std::span<const Index> corners) {
   std::vector<Index> cycle(corners.begin(), corners.end());
-  std::ranges::rotate(cycle, std::ranges::min_element(cycle));
+  std::rotate(cycle.begin(), std::ranges::min_element(cycle), cycle.end());
   if (cycle[1] > cycle.back()) std::reverse(cycle.begin() + 1, cycle.end());
   return cycle;
 }

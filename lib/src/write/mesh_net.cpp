@@ -15,7 +15,7 @@ constexpr std::size_t kLongestLine = 79;  // that old readers take
 constexpr std::size_t kMostCorners = 10;
 
 Triangle smallest_first(Triangle t) {
-  std::ranges::rotate(t, std::ranges::min_element(t));
+  std::rotate(t.begin(), std::ranges::min_element(t), t.end());
   return t;
 }
 
