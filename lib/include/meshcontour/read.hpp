@@ -36,7 +36,7 @@ struct ReadOptions {
 
 /// Reads a file; the format follows its content, with the extension as a hint.
 ///
-/// Coordinates are at most 1e100 in size, and 1e150 where a part is placed: products of lengths stay finite.
+/// Coordinates are at most 1e101 in size, and 1e150 where a part is placed: products of lengths stay finite.
 /// Files that it names are read only from the folder of the file itself or below.
 ///
 /// @throws Error  NoInput if the file cannot be opened, BadData with file, line and element if it is wrong,

@@ -29,7 +29,7 @@ void warn_of_flat_shells(Model& model, const std::string& file) {
                            findings.diagnostics().end());
 }
 
-constexpr double kLargest = 1e100;        // of a coordinate: volumes stay finite
+constexpr double kLargest = 1e101;        // volumes stay finite; sweeps add curves of up to 1e100
 constexpr double kLargestPlaced = 1e150;  // areas do
 
 bool in_range(const Box& box, double largest) {
