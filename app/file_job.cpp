@@ -28,11 +28,11 @@ class Names {
       : input_(input), number_(number), several_(several) {}
 
   std::string path(const std::string& name, std::string_view view = "") const {
-    const std::string path = fill_template(name, input_, number_, view);
-    if (several_ && path == fill_template(name, "", 0, view) && path != "-") {
+    const auto has = [&](std::string_view field) { return name.find(field) != name.npos; };
+    if (several_ && name != "-" && !has("{stem}") && !has("{dir}") && !has("{n}")) {
       usage(fmt::format("with several inputs the name of the output '{}' needs {{stem}} or {{n}}", printable(name)));
     }
-    return path;
+    return fill_template(name, input_, number_, view);
   }
 
  private:
