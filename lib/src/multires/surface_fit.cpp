@@ -17,6 +17,7 @@ constexpr Index kNone = MeshLevel::kNone;
 constexpr double kTangentialShare = 0.05;  // of a distance within the surface
 constexpr double kPull = 1e-3;             // towards where a vertex is, beside the mean share of a vertex
 constexpr double kLeastCosine = 0.5;       // of the turn of a triangle in a step
+constexpr double kLeastSupport = 3;        // samples, by their weights at a vertex that moves
 constexpr double kLeastShape = 0.04;       // of a triangle that a flip makes; an equilateral one has 0.29
 constexpr double kGain = 0.99;             // of the error before a flip that may remain
 constexpr int kFlipRounds = 4, kMostSteps = 10, kMostAttempts = 50;
@@ -235,15 +236,23 @@ class SurfaceFit {
     const double pull = kPull * all / static_cast<double>(std::max<std::size_t>(1, points_.size()));
     BlockSystem system(triangles_, free_, pull > 0 ? pull : 1);
     constexpr double kTangential = kTangentialShare * kTangentialShare;
+    std::vector<double> support(points_.size(), 0);
     for (const SurfaceSample& sample : samples_) {
       const Corners triangle = corners(sample.triangle);
       const Point foot = nearest_point(triangle, sample.point);
       const Eigen::Matrix3d metric =
           sample.share * (kTangential * Eigen::Matrix3d::Identity() +
                           (1 - kTangential) * sample.normal * sample.normal.transpose());
-      system.add(sample.triangle, weights_at(triangle, foot), metric, sample.point - foot);
+      const Vector weights = weights_at(triangle, foot);
+      for (std::size_t k = 0; k < 3; ++k) support[triangles_[sample.triangle][k]] += weights[static_cast<Eigen::Index>(k)];
+      system.add(sample.triangle, weights, metric, sample.point - foot);
     }
-    move(system.solve());
+    std::vector<Vector> shifts = system.solve();
+    // What few samples tell is extrapolated: along the long triangles of a cylinder there are none.
+    for (std::size_t v = 0; v < shifts.size(); ++v) {
+      if (support[v] < kLeastSupport) shifts[v].setZero();
+    }
+    move(std::move(shifts));
   }
 
   // Vertices go where they should; those of triangles that would turn too far stay.
