@@ -40,34 +40,31 @@ std::vector<FileJob> make_jobs(const CommandLine& line, const std::vector<std::s
   return jobs;
 }
 
-// What a worker that could not answer leaves behind.
-Outcome lost_outcome(const FileJob& job, const TaskResult& result, const CommandLine& line) {
-  Outcome outcome;
-  outcome.report.file = job.input;
-  const std::string name = printable(job.input);
-  const Spot input{job.input, 0, 0, ""};
-  if (result.end == TaskResult::End::TimedOut) {
-    fail(ErrorCode::TimeLimit, fmt::format("{}: took longer than {} s", name, line.timeout), input, line, outcome);
-  } else if (result.end == TaskResult::End::TooLarge) {
-    fail(ErrorCode::OutOfMemory, fmt::format("{}: needs more memory than {} MB", name, line.max_memory / 1'000'000),
-         input, line, outcome);
-  } else {
-    fail(ErrorCode::Internal,
-         fmt::format("{}: the program was ended by signal {} ({})", name, result.signal, strsignal(result.signal)),
-         input, line, outcome);
+// What a worker answered, or what became of it; an answer that cannot be read is no reason to lose the other files.
+Outcome outcome_of(const FileJob& job, const TaskResult& result, const CommandLine& line) {
+  const auto failed = [&](ErrorCode code, const std::string& what) {
+    Outcome outcome;
+    outcome.report.file = job.input;
+    fail(code, fmt::format("{}: {}", printable(job.input), what), {job.input, 0, 0, ""}, line, outcome);
+    return outcome;
+  };
+  switch (result.end) {
+    case TaskResult::End::TimedOut:
+      return failed(ErrorCode::TimeLimit, fmt::format("took longer than {} s", line.timeout));
+    case TaskResult::End::TooLarge:
+      return failed(ErrorCode::OutOfMemory,
+                    fmt::format("needs more memory than {} MB", line.max_memory / 1'000'000));
+    case TaskResult::End::Done:
+      break;
+    default:
+      return failed(ErrorCode::Internal, fmt::format("the program was ended by signal {} ({})", result.signal,
+                                                     strsignal(result.signal)));
   }
-  return outcome;
-}
-
-// What a worker answered; an answer that cannot be read is no reason to lose the other files.
-Outcome outcome_of(const FileJob& job, const TaskResult& result, const CommandLine& line) try {
-  return result.end == TaskResult::End::Done ? from_bytes(result.payload) : lost_outcome(job, result, line);
-} catch (const std::exception& error) {
-  Outcome outcome;
-  outcome.report.file = job.input;
-  fail(ErrorCode::Internal, fmt::format("{}: internal error: {}", printable(job.input), error.what()),
-       {job.input, 0, 0, ""}, line, outcome);
-  return outcome;
+  try {
+    return from_bytes(result.payload);
+  } catch (const std::exception& error) {
+    return failed(ErrorCode::Internal, fmt::format("internal error: {}", error.what()));
+  }
 }
 
 // Takes outcomes as they come, prints them in the order of the inputs and keeps their reports.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <tuple>
 
@@ -240,14 +239,6 @@ std::string options_text(const CLI::App& app) {
     if (matters) text += fmt::format("{}={}\n", name, fmt::join(option->results(), ","));
   }
   return text;
-}
-
-[[noreturn]] void usage(const std::string& message) {
-  throw Error(ErrorCode::Usage, message + "\nTry 'meshcontour --help'.");
-}
-
-std::string extension(const std::string& path) {
-  return std::filesystem::path(path).extension().string();
 }
 
 // Outputs that are pages become reports: one of all inputs, or one of each where the name tells inputs apart.

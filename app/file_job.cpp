@@ -3,16 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "option_values.hpp"
 
 namespace meshcontour::app {
 namespace {
-
-[[noreturn]] void usage(const std::string& message) {
-  throw Error(ErrorCode::Usage, message + "\nTry 'meshcontour --help'.");
-}
 
 std::string format_names() {
   std::string out;
@@ -40,10 +35,6 @@ class Names {
   std::size_t number_;
   bool several_;
 };
-
-std::string extension(const std::string& path) {
-  return std::filesystem::path(path).extension().string();
-}
 
 bool is_seen(OutputFormat format) {
   return format == OutputFormat::Png || format == OutputFormat::Svg;

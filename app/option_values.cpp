@@ -51,6 +51,10 @@ std::string unit_symbols() {
   return out;
 }
 
+void usage(const std::string& message) {
+  throw Error(ErrorCode::Usage, message + "\nTry 'meshcontour --help'.");
+}
+
 void refuse(std::string_view option, std::string_view text, std::string_view expected) {
   throw Error(ErrorCode::Usage, fmt::format("{}: expected {}, found '{}'", option, expected, printable(text)));
 }
@@ -146,10 +150,9 @@ LayerStyle parse_layer_color(std::string_view text) {
 
 LayerStyle parse_layer_width(std::string_view text) {
   constexpr std::string_view kOption = "--line-width";
-  constexpr double kWidest = 64;
   const auto [layer, value] = layer_and_value(text, kOption, "LAYER=PIXELS");
   const double width = parse_positive(value, kOption);
-  if (width > kWidest) refuse(kOption, value, fmt::format("at most {} pixels", kWidest));
+  if (width > kWidestLine) refuse(kOption, value, fmt::format("at most {} pixels", kWidestLine));
   return {layer, std::nullopt, width};
 }
 
@@ -183,6 +186,10 @@ std::vector<std::pair<std::size_t, std::size_t>> parse_ranges(std::string_view t
     refuse(option, text, "numbers from 1 and ranges, as in 4,7-9");
   }
   return ranges;
+}
+
+std::string extension(const std::string& path) {
+  return std::filesystem::path(path).extension().string();
 }
 
 std::string fill_template(std::string_view name, const std::string& input, std::size_t number,

@@ -19,6 +19,9 @@ namespace meshcontour::app {
 // Values of options as the user types them. All throw Error{Usage} with a message that names the option, the text
 // and what would be right.
 
+/// Any other fault of the command line.
+[[noreturn]] void usage(const std::string& message);
+
 [[noreturn]] void refuse(std::string_view option, std::string_view text, std::string_view expected);
 
 /// A whole number from 0 to `largest`.
@@ -94,6 +97,9 @@ std::string join_words(const std::vector<T>& values, const Choices<T, N>& choice
   }
   return out;
 }
+
+/// With its dot; empty where there is none.
+std::string extension(const std::string& path);
 
 /// The output's name with {stem}, {dir}, {n} and {view} filled in: the input's name without folder and extension, its
 /// folder, its number, the picture's view.

@@ -2,7 +2,8 @@
 """Runs the program on every sample with every group of options, in one thread and in several, and checks that it
 succeeds without a sanitizer's report and writes the same both times.
 
-Usage: run_samples.py PROGRAM SAMPLES [--without-pictures]; SAMPLES is the folder of stud.xml."""
+Usage: run_samples.py PROGRAM SAMPLES [tables|pictures]; SAMPLES is the folder of stud.xml. Only tables and meshes, or
+only pictures, else both."""
 
 import collections
 import os
@@ -43,12 +44,10 @@ def run(program, sample, options, threads, folder):
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, stdin=subprocess.DEVNULL)
 
 
-def main(program, folder, *flags):
+def main(program, folder, only=""):
     program, failures, codes = os.path.abspath(program), 0, collections.Counter()
     for sample in samples(pathlib.Path(folder).resolve()):
-        for options in GROUPS:
-            if "--without-pictures" not in flags and options is GROUPS[0]:
-                options = options + PICTURES
+        for options in [*(GROUPS if only != "pictures" else []), *([PICTURES] if only != "tables" else [])]:
             results = []
             for threads in (1, 4):
                 with tempfile.TemporaryDirectory() as work:

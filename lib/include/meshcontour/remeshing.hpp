@@ -40,7 +40,8 @@ struct Remesh {
 /// patch borders and creases lie on these, and every vertex that these had is among them. There are about
 /// four times as many triangles; at most sixteen times as many, of large surfaces eight times. O(n log n).
 ///
-/// @throws Error  Usage if an option is out of range; BadData if the shell has no triangles or is not an orientable manifold (naming the vertex).
+/// @throws Error  Usage if an option is out of range; BadData if the shell has no triangles or is not an
+///                orientable manifold (naming the vertex).
 Remesh remeshed(const Shell& shell, const RemeshOptions& options = {});
 
 /// The model with a remesh in place of every shell whose triangles come from no subdivision, and a note for

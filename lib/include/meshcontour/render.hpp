@@ -28,11 +28,14 @@ enum class Layer {
   Scale,        ///< a bar of a round length in the lower right corner, over everything else; not in View::Report
 };
 
+/// Pixels: lines are no wider, points no larger.
+inline constexpr double kWidestLine = 64;
+
 /// Another look of a layer than its own.
 struct LayerStyle {
   Layer layer = Layer::Edges;
   std::optional<Rgba> color;    ///< of everything in it, opaque
-  std::optional<double> width;  ///< of its lines, or its points' diameter: pixels of the picture, up to 64
+  std::optional<double> width;  ///< of its lines, or its points' diameter: pixels of the picture, up to kWidestLine
 };
 
 /// From where the model is seen, with Z up. Front looks along +Y with X to the right, right looks along -X with
@@ -79,8 +82,8 @@ struct Image {
 /// used.
 ///
 /// @param boundaries, contours  may be empty when no layer needs them.
-/// @throws Error  Usage if the size or a width is out of range, or the layer Scale is asked for in perspective; NoRenderer if no context can be made or its self-test
-///                fails; OutOfMemory if the picture needs more memory than there is, or the rasterizer runs
+/// @throws Error  Usage if the size or a width is out of range, or the layer Scale is asked for in perspective;
+///                NoRenderer if no context can be made or its self-test fails; OutOfMemory if the picture needs more memory than there is, or the rasterizer runs
 ///                out of it; BadData if the model is too large for numbers (beyond 1e150), or if nothing
 ///                would show.
 Image render(const Model& model, std::span<const ShellBoundary> boundaries, std::span<const Contour> contours,

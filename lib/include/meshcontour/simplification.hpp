@@ -48,10 +48,10 @@ struct Simplification {
 ///
 /// Corner normals stay where a triangle stays and are unknown elsewhere. O(n log n).
 ///
-/// @param triangles  to reach, for the goals Ratio and Triangles.
 /// Where the Wavelet method had to remesh, borders keep their course to within the error, and their first
 /// vertices.
 ///
+/// @param triangles  to reach, for the goals Ratio and Triangles.
 /// @throws Error  Usage if the goal's value is out of range; BadData if the method is Wavelet and the
 ///                triangles neither come from a subdivision nor are an orientable manifold, or a subdivision
 ///                mesh is farther from them than the error asked for.

@@ -20,8 +20,8 @@ struct SubdivisionConnectivity {
 /// linear.
 ///
 /// The four children of a triangle must be of one patch. Shells that are no orientable manifold, or with parts of
-/// which just some were subdivided, give 0 levels. Creases inside patches do not matter, and the base has none. Where a part has
-/// several coarser meshes (a regular torus, a strip) the first that is found counts.
+/// which just some were subdivided, give 0 levels. Creases inside patches do not matter, and the base has none. Where
+/// a part has several coarser meshes (a regular torus, a strip) the first that is found counts.
 SubdivisionConnectivity find_subdivision(const Shell& shell);
 
 /// The length of the wavelet coefficient of each point of a shell, 0 at those of the coarsest mesh; nothing

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "multires/patches.hpp"
 
 namespace meshcontour::detail {
 namespace {
@@ -61,10 +60,7 @@ struct AdaptiveMesh::Leaf {
 AdaptiveMesh::AdaptiveMesh(const SubdivisionConnectivity& connectivity, std::span<const Point> points,
                            const std::vector<bool>& kept, EdgeMeasure measure)
     : points_(points.begin(), points.end()) {
-  const std::vector<std::size_t> patches = patch_of_triangles(connectivity.base);
-  levels_.push_back(make_level(connectivity.base.triangles,
-                               static_cast<Index>(connectivity.base.points.size()),
-                               [&](std::size_t f, std::size_t g) { return patches[f] != patches[g]; }));
+  levels_.push_back(make_level(connectivity.base));
   for (unsigned j = 0; j < connectivity.levels; ++j) levels_.push_back(quadrisected(levels_.back()));
   this->measure(kept, measure);
   saturate();

@@ -184,8 +184,7 @@ void number_vertices(const Steps& found, SubdivisionConnectivity& out) {
   std::size_t level = found.steps.size() - 1;
   std::vector<Index> first(found.steps[level].triangles.size());
   for (Index t = 0; t < first.size(); ++t) first[t] = 3 * t;
-  MeshLevel canonical = detail::make_level(out.base.triangles, static_cast<Index>(out.base.points.size()),
-                                           [](std::size_t, std::size_t) { return false; });
+  MeshLevel canonical = detail::make_level(out.base, false);
   for (; level > 0; --level) {
     const MeshLevel& fine = found.levels[level - 1];
     const std::vector<Index>& centres = found.steps[level].centres;

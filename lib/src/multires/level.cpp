@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "meshcontour/error.hpp"
+#include "multires/patches.hpp"
 
 namespace meshcontour::detail {
 namespace {
@@ -123,6 +124,12 @@ MeshLevel make_level(std::span<const Triangle> triangles, Index vertex_count,
   describe_vertices(level);
   check_fans(level);
   return level;
+}
+
+MeshLevel make_level(const Shell& shell, bool patch_borders) {
+  const std::vector<std::size_t> patches = patch_of_triangles(shell);
+  return make_level(shell.triangles, static_cast<Index>(shell.points.size()),
+                    [&](std::size_t f, std::size_t g) { return patch_borders && patches[f] != patches[g]; });
 }
 
 MeshLevel quadrisected(const MeshLevel& level) {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "meshcontour/types.hpp"
+#include "meshcontour/model.hpp"
 
 namespace meshcontour::detail {
 
@@ -46,6 +46,11 @@ struct MeshLevel {
 ///                   same way, of a degenerate triangle, or a vertex where several fans meet.
 MeshLevel make_level(std::span<const Triangle> triangles, Index vertex_count,
                      const std::function<bool(std::size_t, std::size_t)>& is_crease);
+
+/// The level of a shell's triangles; edges between patches are sharp if wanted, creases inside patches are not.
+///
+/// @throws Error  as above.
+MeshLevel make_level(const Shell& shell, bool patch_borders = true);
 
 /// The level after quadrisection, without hashing or sorting.
 MeshLevel quadrisected(const MeshLevel& level);

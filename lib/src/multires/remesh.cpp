@@ -7,7 +7,6 @@
 #include "meshcontour/remeshing.hpp"
 #include "meshcontour/simplification.hpp"
 #include "multires/base_mesh.hpp"
-#include "multires/patches.hpp"
 #include "multires/placement.hpp"
 #include "multires/relaxation.hpp"
 #include "multires/triangle_tree.hpp"
@@ -33,18 +32,12 @@ constexpr double kMostFlipped = 1e-4;  // of the triangles: no further attempt
 constexpr double kNearEnough = 0.7;    // of the tolerance
 constexpr double kTolerance = 5e-3;    // of the size
 
-MeshLevel level_of(const Shell& shell) {
-  const std::vector<std::size_t> patches = detail::patch_of_triangles(shell);
-  return detail::make_level(shell.triangles, static_cast<Index>(shell.points.size()),
-                            [&](std::size_t f, std::size_t g) { return patches[f] != patches[g]; });
-}
-
-// As above, with creases, and of what is none a message that helps.
+// The shell's, creases sharp too; where there is none, a message that helps.
 MeshLevel surface_level(const Shell& shell) {
   if (shell.triangles.empty())
     throw Error(ErrorCode::BadData, fmt::format("shell {}: no triangles to remesh", printable(shell.id)));
   try {
-    MeshLevel level = level_of(shell);
+    MeshLevel level = detail::make_level(shell);
     for (std::size_t e = 0; e < level.edge_count(); ++e) {
       const auto [low, high] =
           std::minmax({level.start(level.first_halfedge[e]), level.end(level.first_halfedge[e])});
@@ -148,7 +141,7 @@ class Remesher {
     base = made.surface.mesh().to_shell(shell_);
     base.corner_normals.clear();
     base.creases.clear();
-    const MeshLevel coarsest = level_of(base);
+    const MeshLevel coarsest = detail::make_level(base);
     MeshLevel finest = coarsest;
     for (unsigned level = 0; level < made.levels; ++level) finest = detail::quadrisected(finest);
     const detail::Placement placement(shell_, made.surface, coarsest, made.levels);

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "multires/level.hpp"
-#include "multires/patches.hpp"
 #include "multires/predict.hpp"
 #include "multires/stencil.hpp"
 
@@ -13,13 +12,6 @@ namespace meshcontour {
 namespace {
 
 using detail::MeshLevel;
-
-MeshLevel level_of(const Shell& shell, bool creases) {
-  const std::vector<std::size_t> patches = detail::patch_of_triangles(shell);
-  return detail::make_level(
-      shell.triangles, static_cast<Index>(shell.points.size()),
-      [&](std::size_t f, std::size_t g) { return creases && patches[f] != patches[g]; });
-}
 
 // Corner normals of the children, the new ones half way between their parent's corners.
 std::vector<Vector> refined_normals(const std::vector<Vector>& normals) {
@@ -60,7 +52,7 @@ Shell subdivided(const Shell& shell, unsigned levels, const SubdivisionOptions& 
   if (levels == 0) return fine;
   fine.polygons = {};
   fine.creases.clear();  // inside patches all becomes smooth
-  MeshLevel level = level_of(shell, options.creases);
+  MeshLevel level = detail::make_level(shell, options.creases);
   for (unsigned step = 0; step < levels; ++step) {
     if (fine.points.size() + level.edge_count() > std::numeric_limits<Index>::max() / 6) {
       throw Error(ErrorCode::Usage,

@@ -6,7 +6,6 @@
 #include "meshcontour/parallel.hpp"
 #include "multires/block_system.hpp"
 #include "multires/level.hpp"
-#include "multires/patches.hpp"
 #include "multires/surface_samples.hpp"
 #include "multires/triangle_tree.hpp"
 
@@ -56,9 +55,7 @@ class SurfaceFit {
  public:
   SurfaceFit(Shell& mesh, std::vector<SurfaceSample> samples, unsigned threads)
       : points_(mesh.points), triangles_(mesh.triangles), samples_(std::move(samples)), threads_(threads) {
-    const std::vector<std::size_t> patches = patch_of_triangles(mesh);
-    const auto is_crease = [&](std::size_t f, std::size_t g) { return patches[f] != patches[g]; };
-    MeshLevel level = make_level(mesh.triangles, static_cast<Index>(mesh.points.size()), is_crease);
+    MeshLevel level = make_level(mesh);
     for (Index v = 0; v < level.vertex_count; ++v) free_.push_back(level.sharp_edges[v] == 0);
     for (Index h = 0; h < level.twins.size(); ++h) smooth_.push_back(level.across(h));
     twins_ = std::move(level.twins);

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "multires/level.hpp"
-#include "multires/patches.hpp"
 #include "multires/predict.hpp"
 #include "multires/stencil.hpp"
 
@@ -130,13 +129,8 @@ WaveletTransform::WaveletTransform(std::span<const Triangle> base, Index vertex_
 
 WaveletTransform::WaveletTransform(const Shell& base, unsigned levels, const SubdivisionOptions& options)
     : implementation_(std::make_unique<Implementation>()) {
-  const std::vector<std::size_t> patches = detail::patch_of_triangles(base);
-  const auto is_crease = [&](std::size_t f, std::size_t g) {
-    return options.creases && patches[f] != patches[g];
-  };
   implementation_->options = options;
-  implementation_->refine(
-      detail::make_level(base.triangles, static_cast<Index>(base.points.size()), is_crease), levels);
+  implementation_->refine(detail::make_level(base, options.creases), levels);
 }
 
 WaveletTransform::~WaveletTransform() = default;

@@ -22,6 +22,9 @@ constexpr std::string_view extractor_name(Extractor extractor) {
   return extractor == Extractor::Sorted ? "sorted" : "halfedge";
 }
 
+// The PNG of every view that an output shows.
+using Pictures = std::map<View, std::vector<std::uint8_t>>;
+
 View view_of(const Job& job, const OutputRequest& output) {
   return output.view.value_or(job.render.view);
 }
@@ -50,14 +53,15 @@ class Targets {
     for (Sink* sink : wavelets_) sink->write(stream.text);
   }
 
-  void write(Run& run, const std::map<View, std::string>& pictures) {
+  void write(Run& run, const Pictures& pictures) {
     Result result{run.model, run.boundaries, run.contours, extractor_name(job_.boundary.extractor),
                   run.diagnostics};
     if (job_.timings_in_json) result.timings = run.timings.stages();
     std::vector<Diagnostic> notes;
     for (std::size_t i = 0; i < outputs_.size(); ++i) {
       if (job_.outputs[i].format == OutputFormat::Png) {
-        outputs_[i]->write(pictures.at(view_of(job_, job_.outputs[i])));
+        const std::vector<std::uint8_t>& png = pictures.at(view_of(job_, job_.outputs[i]));
+        outputs_[i]->write({reinterpret_cast<const char*>(png.data()), png.size()});
       } else {
         WriteOptions options = job_.write;
         options.view = view_of(job_, job_.outputs[i]);
@@ -204,19 +208,15 @@ void find_contours(const Job& job, Run& run) {
   run.timings.count("fit", counts.loops + counts.open_chains);
 }
 
-// The PNG of every view that an output shows.
-std::map<View, std::string> draw(const Job& job, Run& run) {
-  std::map<View, std::string> pictures;
+Pictures draw(const Job& job, Run& run) {
+  Pictures pictures;
   for (const OutputRequest& output : job.outputs) {
     RenderOptions options = job.render;
     options.view = view_of(job, output);
     if (output.format != OutputFormat::Png || pictures.contains(options.view)) continue;
     const Image image = run.timings.measure(
         "render", [&] { return render(run.model, run.boundaries, run.contours, options); });
-    run.timings.measure("write", [&] {
-      const std::vector<std::uint8_t> png = encode_png(image);
-      pictures.emplace(options.view, std::string(png.begin(), png.end()));
-    });
+    run.timings.measure("write", [&] { pictures.emplace(options.view, encode_png(image)); });
   }
   if (!pictures.empty()) run.timings.count("render", pictures.size() * counts_of(run.model, {}, {}).triangles);
   return pictures;
@@ -230,7 +230,7 @@ Run run(const Job& job) {
   prepare_model(job, targets, run);
   find_contours(job, run);
   name_file(job, run);
-  const std::map<View, std::string> pictures = draw(job, run);
+  const Pictures pictures = draw(job, run);
   if (job.preview) run.timings.measure("preview", [&] { run.preview = detail::make_preview(job, run); });
   run.timings.measure("write", [&] { targets.write(run, pictures); });
   name_file(job, run);

@@ -14,7 +14,6 @@ namespace detail {
 namespace {
 
 constexpr int kLargestSide = 16384;
-constexpr double kWidestLine = 64;  // pixels
 constexpr std::size_t kQuickTriangles = 200'000;  // above, compiling shaders well pays
 
 void check(const Model& model, std::span<const ShellBoundary> boundaries, const RenderOptions& options) {
@@ -47,14 +46,6 @@ std::size_t drawn_triangles(const Model& model) {
   return count;
 }
 
-[[noreturn]] void refuse_blank(const Scene& scene) {
-  throw Error(ErrorCode::BadData,
-              scene.model_batches == 0
-                  ? "the picture would be blank: the layers asked for have nothing to draw"
-                  : "the picture would be blank: all that is drawn lies outside the view, is smaller than a "
-                    "pixel or has the background's colour");
-}
-
 // Draws with the first backend that gives a context.
 Image draw(Scene& scene, const GlSettings& settings, GlBackend wanted) {
   static std::mutex one_at_a_time;
@@ -67,8 +58,10 @@ Image draw(Scene& scene, const GlSettings& settings, GlBackend wanted) {
     const GlOutcome outcome = api->draw(scene, settings, image);
     switch (outcome.status) {
       case GlOutcome::Status::Done:
-        if (outcome.blank) refuse_blank(scene);
-        return image;
+        if (!outcome.blank) return image;
+        throw Error(ErrorCode::BadData,
+                    "the picture would be blank: all that is drawn lies outside the view, is smaller than a pixel or "
+                    "has the background's colour");
       case GlOutcome::Status::OutOfMemory:
         throw Error(ErrorCode::OutOfMemory, outcome.message);
       case GlOutcome::Status::Failed:
@@ -100,7 +93,9 @@ Image render(const Model& model, std::span<const ShellBoundary> boundaries, std:
   settings.threads = options.threads;
   settings.quick_compile = detail::drawn_triangles(model) <= detail::kQuickTriangles;
   detail::Scene scene = detail::build_scene(model, boundaries, contours, options);
-  if (scene.model_batches == 0) detail::refuse_blank(scene);
+  if (scene.model_batches == 0) {
+    throw Error(ErrorCode::BadData, "the picture would be blank: the layers asked for have nothing to draw");
+  }
   detail::require_memory(scene, settings.largest_tile);
   return detail::draw(scene, settings, options.backend);
 }

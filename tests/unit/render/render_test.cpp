@@ -35,17 +35,8 @@ bool is_like(const Rgba& pixel, const Rgba& color) {
 }
 
 // The middle of the pixels of a colour, y up.
-Eigen::Vector2d middle(const Image& image, const Rgba& color) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  int count = 0;
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      if (!is_like(pixel(image, x, y), color)) continue;
-      sum += Eigen::Vector2d(x, image.height - y);
-      ++count;
-    }
-  }
-  return count > 0 ? Eigen::Vector2d(sum / count) : Eigen::Vector2d::Zero();
+Eigen::Vector2d middle_of(const Image& image, const Rgba& color) {
+  return middle(image, [&](const Rgba& pixel) { return is_like(pixel, color); });
 }
 
 // Pixels that a layer changes.
@@ -96,7 +87,7 @@ TEST_CASE("render: each view has its axes where CAD has them", "[render]") {
                Case{View::Right, kGreen, kBlue, true, true}, Case{View::Left, kGreen, kBlue, false, true},
                Case{View::Top, kRed, kGreen, true, true}, Case{View::Bottom, kRed, kGreen, true, false});
   const Image image = picture(model, small({Layer::Mesh}, one.view));
-  const Eigen::Vector2d right = middle(image, one.right), up = middle(image, one.up);
+  const Eigen::Vector2d right = middle_of(image, one.right), up = middle_of(image, one.up);
   CHECK((right.x() > up.x()) == one.rightwards);
   CHECK((up.y() > right.y()) == one.upwards);
   const Eigen::Matrix3d axes = view_axes(one.view);
@@ -128,7 +119,7 @@ TEST_CASE("render: the report's view is its perspective, in model units", "[rend
   options.width = options.height = 500;
   const Image image = picture(placed({box({-10, -10, -10}, {10, 10, 10}, kBlue)}), options);
   CHECK(is_like(pixel(image, 250, 250), kRed));
-  const Eigen::Vector2d center = middle(image, kRed);
+  const Eigen::Vector2d center = middle_of(image, kRed);
   CHECK(center.x() == Approx(250).margin(4));
   CHECK(center.y() == Approx(250).margin(4));
   const Eigen::Matrix3d axes = view_axes(View::Report);

@@ -91,4 +91,19 @@ inline Rgba pixel(const Image& image, int x, int y) {
   return {p[0], p[1], p[2], p[3]};
 }
 
+/// The middle of the pixels that a test holds of, y up; the origin if there are none.
+template <class Test>
+Eigen::Vector2d middle(const Image& image, const Test& test) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  int count = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      if (!test(pixel(image, x, y))) continue;
+      sum += Eigen::Vector2d(x, image.height - y);
+      ++count;
+    }
+  }
+  return count > 0 ? Eigen::Vector2d(sum / count) : Eigen::Vector2d::Zero();
+}
+
 }  // namespace solids
