@@ -1,8 +1,10 @@
-// The picture drawn the way of the report that this grew from, beside ours: glBegin and glFlush for each triangle, a
-// GLU renderer and glFlush for each loop; and its curves with one renderer and one flush. Each way draws in a process
-// of its own, several pictures, of which the first (with what starts up) and the median of the rest are printed.
+// The picture drawn the way of the report that this grew from, beside ours: glBegin and glFlush for each
+// triangle, a GLU renderer and glFlush for each loop; and its curves with one renderer and one flush. Each
+// way draws in a process of its own, several pictures, of which the first (with what starts up) and the
+// median of the rest are printed. The model is moved and scaled into the report's view; a flush costs what
+// copying the picture does, so there are two sizes.
 //
-// usage: bench_report_way MODEL [rounds]
+// usage: bench_report_way MODEL|loops [rounds]     loops: 1000 loops of 50 vertices
 
 #include <GL/glu.h>
 #include <GL/osmesa.h>
@@ -11,7 +13,10 @@
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
+#include <numbers>
+#include <string_view>
 
 #include "bench/bench.hpp"
 #include "meshcontour/fit.hpp"
@@ -22,7 +27,9 @@ using namespace meshcontour;
 
 namespace {
 
-constexpr int kSide = 500;
+struct Size {
+  int width, height;
+};
 
 struct Input {
   Model model;
@@ -30,10 +37,44 @@ struct Input {
   std::vector<Contour> contours;  // control polygons as curves
 };
 
-Input input_of(const char* name) {
+// Rows of round patches, of as many triangles as vertices.
+Model sheet_of_loops() {
+  constexpr std::size_t kColumns = 40, kRows = 25, kVertices = 50;
+  Shell shell;
+  for (std::size_t i = 0; i < kColumns * kRows; ++i) {
+    const Point center(3 * double(i % kColumns), 3 * double(i / kColumns), 0);
+    const auto middle = static_cast<Index>(shell.points.size());
+    shell.points.push_back(center);
+    for (std::size_t k = 0; k < kVertices; ++k) {
+      const double t = 2 * std::numbers::pi * double(k) / double(kVertices);
+      shell.points.push_back(center + (1 + 0.3 * std::cos(5 * t)) * Point(std::cos(t), std::sin(t), 0));
+      const auto next = static_cast<Index>((k + 1) % kVertices);
+      shell.triangles.push_back({middle, middle + 1 + static_cast<Index>(k), middle + 1 + next});
+    }
+    shell.patches.push_back({"", {}, i * kVertices, kVertices});
+  }
+  Model model;
+  model.shells.push_back(std::move(shell));
+  model.instances.push_back({});
+  return model;
+}
+
+// The report's camera stands still.
+void move_into_view(Model& model) {
+  constexpr double kHalf = 45;  // model units
+  Box box;
+  for (const Shell& shell : model.shells) box.extend(bounding_box(shell));
+  const double scale = kHalf / (box.sizes() / 2).norm();
+  for (Shell& shell : model.shells) {
+    for (Point& p : shell.points) p = scale * (p - box.center());
+  }
+}
+
+Input input_of(std::string_view name) {
   Input input;
   std::vector<Diagnostic> diagnostics;
-  input.model = read_model(std::filesystem::path(name));
+  input.model = name == "loops" ? sheet_of_loops() : read_model(std::filesystem::path(name));
+  move_into_view(input.model);
   input.boundaries = extract_boundaries(input.model, {}, diagnostics);
   FitOptions options;
   options.method = FitMethod::Control;
@@ -44,15 +85,17 @@ Input input_of(const char* name) {
 // The report's camera, colours and immediate mode.
 class ReportWay {
  public:
-  explicit ReportWay(const Input& input) : input_(input) {}
+  ReportWay(const Input& input, const Size& size)
+      : input_(input), size_(size), pixels_(4 * std::size_t(size.width) * std::size_t(size.height)) {}
 
   void start() {
     context_ = OSMesaCreateContextExt(OSMESA_RGBA, 24, 0, 0, nullptr);
-    if (OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, kSide, kSide) != GL_TRUE) std::abort();
+    if (OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, size_.width, size_.height) != GL_TRUE)
+      std::abort();
     glEnable(GL_DEPTH_TEST);
-    glViewport(0, 0, kSide, kSide);
+    glViewport(0, 0, size_.width, size_.height);
     glMatrixMode(GL_PROJECTION);
-    gluPerspective(30, 1, 1, 1000);
+    gluPerspective(30, double(size_.width) / size_.height, 1, 1000);
     glMatrixMode(GL_MODELVIEW);
     glTranslatef(0, 0, -4);
     glScalef(0.015F, 0.015F, 0.015F);
@@ -106,14 +149,16 @@ class ReportWay {
   }
 
   const Input& input_;
+  Size size_;
   OSMesaContext context_ = nullptr;
-  std::vector<std::uint8_t> pixels_ = std::vector<std::uint8_t>(4 * kSide * kSide);
+  std::vector<std::uint8_t> pixels_;
   std::vector<float> points_, knots_;
 };
 
-RenderOptions options(std::vector<Layer> layers) {
+RenderOptions options(std::vector<Layer> layers, const Size& size) {
   RenderOptions options;
-  options.width = options.height = kSide;
+  options.width = size.width;
+  options.height = size.height;
   options.view = View::Report;
   options.layers = std::move(layers);
   options.threads = 1;
@@ -150,30 +195,38 @@ Times times_of(const std::function<void()>& start, const std::function<void()>& 
   return times;
 }
 
+void print_row(const char* what, const Size& size, const char* name, const Times& times, const Times& own) {
+  fmt::print("| {} | {}x{} | {} | {:.1f} | {:.1f} | {:.2f} |\n", what, size.width, size.height, name,
+             1000 * times.first, 1000 * times.rest, own.rest / times.rest);
+}
+
+void measure(const Input& input, const Size& size, int rounds) {
+  const auto ours = [&](const std::vector<Layer>& layers) {
+    const auto draw = [&] { render(input.model, input.boundaries, input.contours, options(layers, size)); };
+    return times_of([] {}, draw, rounds);
+  };
+  ReportWay way(input, size);
+  const auto theirs = [&](const std::function<void()>& draw) {
+    return times_of([&] { way.start(); }, [&] { way.clear(), draw(), way.finish(); }, rounds);
+  };
+  const Times curves = ours({Layer::Curves});
+  print_row("curves", size, "meshcontour", curves, curves);
+  print_row("curves", size, "one GLU renderer", theirs([&] { way.draw_curves(true); }), curves);
+  print_row("curves", size, "a renderer and a flush per loop", theirs([&] { way.draw_curves(false); }),
+            curves);
+  if (size.width > 500) return;  // a flush per triangle takes minutes
+  const Times mesh = ours({Layer::Mesh});
+  print_row("triangles", size, "meshcontour", mesh, mesh);
+  print_row("triangles", size, "a flush per triangle", theirs([&] { way.draw_triangles(); }), mesh);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc < 2) return 64;
   const int rounds = argc > 2 ? std::atoi(argv[2]) : 5;
   const Input input = input_of(argv[1]);
-  const auto ours = [&](const std::vector<Layer>& layers) {
-    return times_of([] {}, [&] { render(input.model, input.boundaries, input.contours, options(layers)); },
-                    rounds);
-  };
-  ReportWay way(input);
-  const auto theirs = [&](const std::function<void()>& draw) {
-    return times_of([&] { way.start(); }, [&] { way.clear(), draw(), way.finish(); }, rounds);
-  };
-  const Times curves = ours({Layer::Curves}), mesh = ours({Layer::Mesh});
-  fmt::print("| drawn | way | first, ms | next, ms | next / ours |\n|---|---|---:|---:|---:|\n");
-  const auto row = [](const char* what, const char* name, const Times& times, const Times& own) {
-    fmt::print("| {} | {} | {:.1f} | {:.1f} | {:.2f} |\n", what, name, 1000 * times.first, 1000 * times.rest,
-               times.rest / own.rest);
-  };
-  row("curves", "meshcontour", curves, curves);
-  row("curves", "one GLU renderer", theirs([&] { way.draw_curves(true); }), curves);
-  row("curves", "a renderer and a flush per loop", theirs([&] { way.draw_curves(false); }), curves);
-  row("triangles", "meshcontour", mesh, mesh);
-  row("triangles", "a flush per triangle", theirs([&] { way.draw_triangles(); }), mesh);
+  fmt::print("| drawn | size | way | first, ms | next, ms | ours / it |\n|---|---|---|---:|---:|---:|\n");
+  for (const Size& size : {Size{500, 500}, Size{1920, 1080}}) measure(input, size, rounds);
   return 0;
 }

@@ -10,6 +10,44 @@ namespace {
 
 constexpr double kMaxChords = 1024;
 
+using Homogeneous = Eigen::Vector4d;
+
+// The blossom of a cubic piece where one argument replaces another: `u` between the knots `low` and `high`.
+Homogeneous between(const Homogeneous& a, const Homogeneous& b, double low, double high, double u) {
+  const double share = (u - low) / (high - low);
+  return (1 - share) * a + share * b;
+}
+
+// The last three Bezier points of a cubic span, and the first where there is none yet: what blossom() gives,
+// without what its calls for one span have in common.
+void add_cubic_span(const BSplineCurve& curve, std::size_t span, std::vector<Homogeneous>& control) {
+  const double* t = curve.knots.data() + span;
+  const auto point = [&](std::size_t back) { return homogeneous_point(curve, span - back); };
+  const Homogeneous p1 = point(2), p2 = point(1);
+  const Homogeneous first = between(p1, p2, t[-1], t[2], t[0]), second = between(p1, p2, t[-1], t[2], t[1]);
+  if (control.empty()) {
+    control.push_back(between(between(point(3), p1, t[-2], t[1], t[0]), first, t[-1], t[1], t[0]));
+  }
+  const Homogeneous last = between(second, between(p2, point(0), t[0], t[3], t[1]), t[0], t[2], t[1]);
+  control.insert(control.end(), {first, second, last});
+}
+
+void add_span(const BSplineCurve& curve, std::size_t span, std::vector<Homogeneous>& control) {
+  const double begin = curve.knots[span], end = curve.knots[span + 1];
+  for (int k = control.empty() ? 0 : 1; k <= curve.degree; ++k) {
+    control.push_back(
+        blossom(curve, span, [&](int argument) { return argument <= curve.degree - k ? begin : end; }));
+  }
+}
+
+// The distance of p to the segment from a to b.
+double distance(const Point& p, const Point& a, const Point& b) {
+  const Vector along = b - a;
+  const double squared = along.squaredNorm();
+  const double share = squared > 0 ? std::clamp((p - a).dot(along) / squared, 0.0, 1.0) : 0;
+  return (p - a - share * along).norm();
+}
+
 }  // namespace
 
 BezierCurve to_bezier(const BSplineCurve& curve, const Point& center, double size) {
@@ -17,12 +55,13 @@ BezierCurve to_bezier(const BSplineCurve& curve, const Point& center, double siz
   const auto degree = static_cast<std::size_t>(curve.degree);
   result.degree = curve.degree;
   result.rational = !curve.weights.empty();
+  result.control.reserve(degree * (curve.control_points.size() - degree) + 1);
   for (std::size_t span = degree; span < curve.control_points.size(); ++span) {
-    const double begin = curve.knots[span], end = curve.knots[span + 1];
-    if (!(begin < end)) continue;
-    for (int k = result.control.empty() ? 0 : 1; k <= curve.degree; ++k) {
-      result.control.push_back(
-          blossom(curve, span, [&](int argument) { return argument <= curve.degree - k ? begin : end; }));
+    if (!(curve.knots[span] < curve.knots[span + 1])) continue;
+    if (degree == 3) {
+      add_cubic_span(curve, span, result.control);
+    } else {
+      add_span(curve, span, result.control);
     }
   }
   for (Eigen::Vector4d& p : result.control) p.head<3>() = (p.head<3>() - p.w() * center) / size;
@@ -40,7 +79,7 @@ std::vector<float> packed_control(const BezierCurve& curve, std::size_t first, s
   return packed;
 }
 
-int chords(const BezierCurve& curve, std::size_t piece, double tolerance) {
+double chord_error(const BezierCurve& curve, std::size_t piece) {
   const auto degree = static_cast<std::size_t>(curve.degree);
   const Eigen::Vector4d* p = &curve.control[piece * degree];
   double difference = 0, smallest = p[0].w(), largest = p[0].w();
@@ -48,13 +87,34 @@ int chords(const BezierCurve& curve, std::size_t piece, double tolerance) {
     smallest = std::min(smallest, p[i].w());
     largest = std::max(largest, p[i].w());
     if (i < 2) continue;
-    const Vector second = p[i].hnormalized() - 2 * p[i - 1].hnormalized() + p[i - 2].hnormalized();
-    difference = std::max(difference, second.norm());
+    const Vector second =
+        curve.rational ? Vector(p[i].hnormalized() - 2 * p[i - 1].hnormalized() + p[i - 2].hnormalized())
+                       : Vector((p[i] - 2 * p[i - 1] + p[i - 2]).head<3>());
+    difference = std::max(difference, second.squaredNorm());
   }
   const double ratio = largest / smallest;
   const double factor = static_cast<double>(degree * (degree - 1)) / 8.0;
-  const double count = std::sqrt(factor * difference * ratio * ratio / tolerance);
+  return factor * std::sqrt(difference) * ratio * ratio;
+}
+
+int chords(double error, double tolerance) {
+  const double count = std::sqrt(error / tolerance);
   return count < kMaxChords ? std::max(1, static_cast<int>(std::ceil(count))) : static_cast<int>(kMaxChords);
+}
+
+void join_chords(std::vector<Chord>& row, double tolerance) {
+  for (std::size_t before = row.size() + 1; row.size() < before;) {
+    before = row.size();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < before; ++kept) {
+      const Chord chord = row[i++];
+      row[kept] = chord;
+      if (i == before || chord.start == row[i].end) continue;
+      const double error = std::max(chord.error, row[i].error) + distance(chord.end, chord.start, row[i].end);
+      if (error <= tolerance) row[kept] = {chord.start, row[i++].end, error};
+    }
+    row.resize(kept);
+  }
 }
 
 }  // namespace meshcontour::detail

@@ -25,8 +25,21 @@ BezierCurve to_bezier(const BSplineCurve& curve, const Point& center, double siz
 /// The control points of pieces in one row: 3 floats a point, or 4 (w x, w y, w z, w) if rational.
 std::vector<float> packed_control(const BezierCurve& curve, std::size_t first, std::size_t pieces);
 
-/// Chords that keep within `tolerance` of a piece, from its second differences [Wang 1984]; for rational
-/// pieces the differences of the projected points, times the square of the ratio of the weights. 1 to 1024.
-int chords(const BezierCurve& curve, std::size_t piece, double tolerance);
+/// A bound on the distance of a piece to its chord, from its second differences [Wang 1984]; for rational
+/// pieces the differences of the projected points, times the square of the ratio of the weights.
+double chord_error(const BezierCurve& curve, std::size_t piece);
+
+/// Chords that keep within `tolerance` of a piece whose one chord keeps within `error`. 1 to 1024.
+int chords(double error, double tolerance);
+
+/// A chord that stands for consecutive pieces, all within `error` of it.
+struct Chord {
+  Point start, end;
+  double error = 0;
+};
+
+/// Joins neighbours of a row of chords, each of which begins where the one before ends, while they stay within
+/// `tolerance`; those whose own error is larger stay. Linear: each pass halves what it joins.
+void join_chords(std::vector<Chord>& row, double tolerance);
 
 }  // namespace meshcontour::detail

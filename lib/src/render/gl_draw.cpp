@@ -37,15 +37,26 @@ Range add_chords(const Batch& batch, NurbsTessellator& tessellator, std::vector<
         {run.degree + 1, run.rational, knots, std::span(batch.control).subspan(run.first, floats), samples});
     const auto& points = tessellator.points();
     const auto& starts = tessellator.starts();
+    std::size_t next = vertices.size();
+    vertices.resize(next + 2 * (points.size() - starts.size()), {.position = {}, .color = run.color});
     for (std::size_t strip = 0; strip < starts.size(); ++strip) {
       const std::size_t end = strip + 1 < starts.size() ? starts[strip + 1] : points.size();
       for (std::size_t i = starts[strip]; i + 1 < end; ++i) {
-        vertices.push_back({.position = points[i], .color = run.color});
-        vertices.push_back({.position = points[i + 1], .color = run.color});
+        vertices[next++].position = points[i];
+        vertices[next++].position = points[i + 1];
       }
     }
   }
   return {first, vertices.size() - first};
+}
+
+// For the chords of all batches: growing would copy what is there.
+void reserve_chords(Scene& scene) {
+  std::size_t chords = 0;
+  for (const Batch& batch : scene.batches) {
+    for (const CurveRun& run : batch.runs) chords += run.pieces * static_cast<std::size_t>(run.samples);
+  }
+  scene.vertices.reserve(scene.vertices.size() + 2 * chords);
 }
 
 // Clip coordinates of the whole picture to those of a tile.
@@ -191,6 +202,7 @@ void test_context() {
 
 bool draw_scene(Scene& scene, int largest_tile, NurbsTessellator& tessellator, Image& image) {
   std::vector<Range> chords;
+  reserve_chords(scene);
   for (const Batch& batch : scene.batches) chords.push_back(add_chords(batch, tessellator, scene.vertices));
   image.width = scene.width;
   image.height = scene.height;

@@ -42,30 +42,47 @@ class CurveBatch {
     if (curve.degree > kLargestDegree) return add_by_evaluation(curve, color);
     const BezierCurve bezier = to_bezier(curve, frame_.center, frame_.size);
     const std::size_t pieces = bezier.pieces();
+    errors_.resize(pieces);
+    counts_.resize(pieces);
+    for (std::size_t i = 0; i < pieces; ++i) {
+      errors_[i] = chord_error(bezier, i);
+      counts_[i] = chords(errors_[i], tolerance_);
+    }
     for (std::size_t first = 0; first < pieces;) {
-      const int samples = chords(bezier, first, tolerance_);
-      if (samples == 1) {
-        add_chord(bezier, first++, color);
-        continue;
-      }
+      const int samples = counts_[first];
+      const std::size_t longest = samples == 1 ? pieces : std::min(pieces, first + kLongestRun);
       std::size_t end = first + 1;
-      while (end < pieces && end - first < kLongestRun && alike(chords(bezier, end, tolerance_), samples))
-        ++end;
-      add_run(bezier, first, end, samples, color);
+      while (end < longest && alike(counts_[end], samples)) ++end;
+      if (samples == 1) {
+        add_chords(bezier, first, end, color);
+      } else {
+        add_run(bezier, first, end, samples, color);
+      }
       first = end;
     }
   }
 
   // Pieces that one setting of the samples serves well.
   static bool alike(int chords, int samples) {
-    return chords > 1 && chords <= samples && 2 * chords >= samples;
+    return samples == 1 ? chords == 1 : chords > 1 && chords <= samples && 2 * chords >= samples;
   }
 
-  void add_chord(const BezierCurve& bezier, std::size_t piece, const Rgba& color) {
+  // Pieces that are as good as straight; of those too short to be told apart a chord stands for several.
+  void add_chords(const BezierCurve& bezier, std::size_t first, std::size_t end, const Rgba& color) {
     const auto degree = static_cast<std::size_t>(bezier.degree);
-    for (const std::size_t i : {piece * degree, (piece + 1) * degree}) {
-      const Eigen::Vector3f p = bezier.control[i].hnormalized().cast<float>();
-      vertices_.push_back({.position = {p.x(), p.y(), p.z()}, .color = color});
+    row_.clear();
+    Point start = bezier.control[first * degree].hnormalized();
+    for (std::size_t i = first; i < end; ++i) {
+      const Point next = bezier.control[(i + 1) * degree].hnormalized();
+      row_.push_back({start, next, errors_[i]});
+      start = next;
+    }
+    join_chords(row_, tolerance_);
+    for (const Chord& chord : row_) {
+      for (const Point& p : {chord.start, chord.end}) {
+        const Eigen::Vector3f position = p.cast<float>();
+        vertices_.push_back({.position = {position.x(), position.y(), position.z()}, .color = color});
+      }
     }
   }
 
@@ -91,6 +108,9 @@ class CurveBatch {
   double tolerance_;  // in coordinates of the frame
   Batch batch_;
   std::vector<Vertex> vertices_;
+  std::vector<double> errors_;  // of the pieces of the curve that is being added: of one chord each
+  std::vector<int> counts_;     // of chords for each
+  std::vector<Chord> row_;
 };
 
 // A curve leaves its loop by up to its deviation, also inwards, where the faces would hide it: it is drawn

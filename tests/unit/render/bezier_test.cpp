@@ -57,7 +57,7 @@ TEST_CASE("chords: they keep the tolerance, and not by far", "[render]") {
   const double tolerance = GENERATE(1e-1, 1e-3, 1e-5);
   const BezierCurve bezier = to_bezier(curve, Point::Zero(), 1);
   for (std::size_t piece = 0; piece < bezier.pieces(); ++piece) {
-    const int n = chords(bezier, piece, tolerance);
+    const int n = chords(chord_error(bezier, piece), tolerance);
     double largest = 0;
     for (int i = 0; i < n; ++i) {
       const Point a = on_piece(bezier, piece, double(i) / n), b = on_piece(bezier, piece, double(i + 1) / n);
@@ -78,7 +78,7 @@ TEST_CASE("chords: a circle of a thousand pixels within a tenth of one", "[rende
   circle.angle = 2 * std::numbers::pi;
   const BezierCurve bezier = to_bezier(to_clamped_bspline(circle), Point::Zero(), 1);
   for (std::size_t piece = 0; piece < bezier.pieces(); ++piece) {
-    const int n = chords(bezier, piece, 0.1);
+    const int n = chords(chord_error(bezier, piece), 0.1);
     for (int i = 0; i < n; ++i) {
       const Point middle =
           (on_piece(bezier, piece, double(i) / n) + on_piece(bezier, piece, double(i + 1) / n)) / 2;
@@ -86,4 +86,37 @@ TEST_CASE("chords: a circle of a thousand pixels within a tenth of one", "[rende
     }
     CHECK(n <= 60);
   }
+}
+
+TEST_CASE("join_chords: what is left runs along the row, within the tolerance, and is not many", "[render]") {
+  const double tolerance = GENERATE(1e-2, 1e-4);
+  std::vector<Point> points;
+  for (int i = 0; i <= 2000; ++i) points.push_back(Point(std::cos(i * 1e-3), std::sin(i * 1e-3), 1e-4 * i));
+  std::vector<Chord> row;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) row.push_back({points[i], points[i + 1], 1e-7});
+  join_chords(row, tolerance);
+  CHECK(row.front().start == points.front());
+  CHECK(row.back().end == points.back());
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (i > 0) CHECK(row[i].start == row[i - 1].end);
+    for (; points[first] != row[i].end; ++first) {
+      const Vector along = (row[i].end - row[i].start).normalized();
+      CHECK((points[first] - row[i].start).cross(along).norm() <= tolerance);
+    }
+    CHECK(row[i].error <= tolerance);
+  }
+  CHECK(double(row.size()) < 2 * 2 / std::sqrt(8 * tolerance) + 2);
+}
+
+TEST_CASE("join_chords: chords that are worse than the tolerance, corners and closed rows stay", "[render]") {
+  const Point a(0, 0, 0), b(1, 0, 0), c(1, 1, 0), d(2, 0, 0);
+  std::vector<Chord> coarse = {{a, b, 0.2}, {b, d, 0}}, corner = {{a, b, 0}, {b, c, 0}},
+                     there_and_back = {{a, b, 0}, {b, a, 0}};
+  join_chords(coarse, 0.1);
+  CHECK(coarse.size() == 2);
+  join_chords(corner, 0.1);
+  CHECK(corner.size() == 2);
+  join_chords(there_and_back, 10);
+  CHECK(there_and_back.size() == 2);
 }
