@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "meshcontour/error.hpp"
 #include "meshcontour/wavelet.hpp"
 #include "multires/level.hpp"
 #include "multires/patches.hpp"
+#include "multires/twins.hpp"
 
 namespace meshcontour {
 namespace {
@@ -14,180 +16,163 @@ using detail::MeshLevel;
 constexpr Index kNone = MeshLevel::kNone;
 constexpr std::uint32_t kOddValence = 6, kOddBorderValence = 4;
 
-enum class Parity : std::uint8_t { Unknown, Even, Odd };
-
-// One step back: the mesh whose quadrisection a mesh is. Vertices keep their numbers.
-struct Step {
+// What counts of a level. Vertices keep the numbers of the finest one.
+struct Connectivity {
   std::vector<Triangle> triangles;
+  std::vector<Index> twins;
   std::vector<std::size_t> patches;  // of each triangle
-  std::vector<Index>
-      centres;  // of each triangle: the middle one of its four; halfedge 3 t + k lies on 3 c + k
+  std::vector<Index> centres;        // of each triangle: in the next finer level the middle one of its four;
+                               // halfedge 3 t + k lies along 3 c + k
+
+  Index start(Index h) const { return triangles[h / 3][h % 3]; }
 };
 
-// Tells the vertices of a coarser mesh from those on its edges [Taubin 2002].
-class Parities {
+// Gathers triangles by fours: a middle one and those across its sides, each at a corner of a coarser
+// triangle. One four decides those around it, and so on [Taubin 2002].
+class Fours {
  public:
-  explicit Parities(const MeshLevel& level) : level_(level), parities_(level.vertex_count, Parity::Unknown) {}
+  // even: the vertices that cannot lie on an edge of a coarser triangle.
+  Fours(const Connectivity& mesh, const std::vector<bool>& even)
+      : mesh_(mesh), even_(even), centre_(mesh.triangles.size(), kNone) {}
 
-  /// Whether there is such a colouring; where a part of the mesh has several the first that is found.
+  // Whether all can be gathered; where a part of the mesh allows several ways, the first that is found.
   bool find() {
-    for (Index v = 0; v < level_.vertex_count; ++v) {
-      const bool used = level_.outgoing[v] != kNone;
-      if (used && !may_be_odd(v) && parities_[v] == Parity::Unknown && !spread(v)) return false;
-      if (used && !may_be_odd(v) && parities_[v] != Parity::Even) return false;
+    for (Index h = 0; h < mesh_.twins.size(); ++h) {
+      if (even_[mesh_.start(h)] && centre_[h / 3] == kNone && !spread(beside_corner(h))) return false;
     }
-    for (Index h = 0; h < level_.twins.size(); h += 3) {
-      if (parities_[level_.start(h)] == Parity::Unknown && !guess(h)) return false;
+    for (Index h = 0; h < mesh_.twins.size(); h += 3) {
+      if (centre_[h / 3] != kNone) continue;
+      const std::array<Index, 4> seeds = {beside_corner(h), beside_corner(h + 1), beside_corner(h + 2), h};
+      if (std::ranges::none_of(seeds, [&](Index seed) { return spread(seed); })) return false;
     }
     return true;
   }
 
-  bool is_even(Index v) const { return parities_[v] == Parity::Even; }
+  bool is_centre(Index t) const { return centre_[t] == t; }
+
+  // Beyond the coarse edge along a halfedge of a middle triangle: the halfedge of the next middle one along
+  // it, kNone at a border; nothing if the two halves of the edge do not lead to the same.
+  std::optional<Index> neighbour(Index h) const {
+    const auto& twins = mesh_.twins;
+    const Index first = twins[MeshLevel::previous(twins[MeshLevel::previous(h)])];
+    const Index second = twins[MeshLevel::next(twins[h])];
+    if (first == kNone && second == kNone) return kNone;
+    if (first == kNone || second == kNone) return std::nullopt;
+    const Index across = twins[MeshLevel::previous(first)], other = twins[MeshLevel::next(second)];
+    if (across == kNone || other == kNone || across != MeshLevel::next(other)) return std::nullopt;
+    return across;
+  }
 
  private:
-  bool on_border(Index v) const { return level_.twins[level_.outgoing[v]] == kNone; }
+  // The halfedge of the middle triangle beside the corner triangle whose even vertex the halfedge leaves.
+  Index beside_corner(Index h) const { return mesh_.twins[MeshLevel::next(h)]; }
 
-  bool may_be_odd(Index v) const {
-    return level_.valences[v] == (on_border(v) ? kOddBorderValence : kOddValence);
-  }
-
-  bool set(Index v, Parity parity) {
-    if (parities_[v] == Parity::Unknown) {
-      parities_[v] = parity;
-      changed_.push_back(v);
-      if (parity == Parity::Even) queue_.push_back(v);
-    }
-    return parities_[v] == parity && (parity == Parity::Even || may_be_odd(v));
-  }
-
-  // From an even vertex to all that it decides. What was set is taken back where that fails.
+  // From a middle triangle, given by a halfedge, to all that it decides. What was gathered is let go where
+  // that fails.
   bool spread(Index seed) {
-    changed_.clear();
-    queue_.clear();
-    bool good = set(seed, Parity::Even);
-    while (good && !queue_.empty()) {
-      const Index v = queue_.back();
-      queue_.pop_back();
-      ring(v, around_);
-      for (std::size_t i = 0; good && i < around_.size(); ++i)
-        good = set(around_[i], Parity::Odd) && settle(around_[i], v);
+    if (seed == kNone) return false;
+    gathered_.clear();
+    bool good = gather(seed / 3);
+    for (std::size_t i = 0; good && i < gathered_.size(); ++i) {
+      const Index h = 3 * gathered_[i];
+      good = reach(h) && reach(h + 1) && reach(h + 2);
     }
     if (!good) {
-      for (const Index v : changed_) parities_[v] = Parity::Unknown;
+      for (const Index centre : gathered_) release(centre);
     }
     return good;
   }
 
-  // The ring of an odd vertex, one of whose even neighbours is known: the other lies opposite.
-  bool settle(Index odd, Index even) {
-    ring(odd, other_);
-    const std::size_t count = other_.size();
-    const auto at = static_cast<std::size_t>(std::ranges::find(other_, even) - other_.begin());
-    const bool border = count == kOddBorderValence;
-    if (border && at != 0 && at != 3) return false;
-    const std::size_t opposite = border ? 3 - at : (at + 3) % count;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!set(other_[i], i == at || i == opposite ? Parity::Even : Parity::Odd)) return false;
+  bool reach(Index h) {
+    const std::optional<Index> next = neighbour(h);
+    return next && (*next == kNone || is_centre(*next / 3) || gather(*next / 3));
+  }
+
+  bool gather(Index centre) {
+    if (centre_[centre] != kNone) return false;
+    centre_[centre] = centre;
+    gathered_.push_back(centre);
+    for (Index h = 3 * centre; h < 3 * centre + 3; ++h) {
+      const Index twin = mesh_.twins[h];
+      if (twin == kNone || centre_[twin / 3] != kNone) return false;
+      if (mesh_.patches[twin / 3] != mesh_.patches[centre]) return false;
+      centre_[twin / 3] = centre;
     }
     return true;
   }
 
-  // A part without irregular vertices: a corner of its first triangle is even, or the tip across one of its
-  // sides.
-  bool guess(Index h) {
-    std::vector<Index> candidates = {level_.start(h), level_.start(h + 1), level_.start(h + 2)};
-    for (Index side = h; side < h + 3; ++side) {
-      if (level_.twins[side] != kNone) candidates.push_back(level_.opposite(level_.twins[side]));
+  void release(Index centre) {
+    for (Index h = 3 * centre; h < 3 * centre + 3; ++h) {
+      const Index twin = mesh_.twins[h];
+      if (twin != kNone && centre_[twin / 3] == centre) centre_[twin / 3] = kNone;
     }
-    return std::ranges::any_of(candidates, [&](Index v) { return spread(v); });
+    centre_[centre] = kNone;
   }
 
-  void ring(Index v, std::vector<Index>& out) const {
-    out.clear();
-    Index h = level_.outgoing[v];
-    // A crease comes before the order of the fan, but a border before a crease.
-    do {
-      out.push_back(level_.end(h));
-      const Index in = MeshLevel::previous(h);
-      if (level_.twins[in] == kNone) out.push_back(level_.start(in));
-      h = level_.twins[in];
-    } while (h != kNone && h != level_.outgoing[v]);
-  }
-
-  const MeshLevel& level_;
-  std::vector<Parity> parities_;
-  std::vector<Index> changed_, queue_, around_, other_;
+  const Connectivity& mesh_;
+  const std::vector<bool>& even_;
+  std::vector<Index> centre_;  // of the four of each triangle
+  std::vector<Index> gathered_;
 };
 
-// The triangle around a middle one: its corners lie across the sides; false if one is missing or not even.
-bool surround(const MeshLevel& level, const std::vector<std::size_t>& patches, const Parities& parities,
-              Index centre, Triangle& triangle) {
-  for (Index k = 0; k < 3; ++k) {
-    const Index twin = level.twins[3 * centre + k];
-    if (twin == kNone || patches[twin / 3] != patches[centre]) return false;
-    triangle[(k + 1) % 3] = level.opposite(twin);
-    if (!parities.is_even(triangle[(k + 1) % 3])) return false;
+// Whether the halfedges of the coarse triangles meet across the edges of the fours: in a very coarse mesh two
+// edges may have the same ends.
+bool same_twins(const Fours& fours, const std::vector<Index>& numbers, const Connectivity& coarse) {
+  for (Index h = 0; h < coarse.twins.size(); ++h) {
+    const Index beyond = *fours.neighbour(3 * coarse.centres[h / 3] + h % 3);
+    if (coarse.twins[h] != (beyond == kNone ? kNone : 3 * numbers[beyond / 3] + beyond % 3)) return false;
   }
   return true;
 }
 
-// Nothing if the mesh is no quadrisection.
-std::optional<Step> step_back(const MeshLevel& level, const std::vector<std::size_t>& patches) {
-  const std::size_t count = level.triangles.size();
+// The mesh whose quadrisection a mesh is; nothing if there is none, or it is no manifold.
+std::optional<Connectivity> coarser(const Connectivity& mesh, const std::vector<bool>& even) {
+  const auto count = static_cast<Index>(mesh.triangles.size());
   if (count == 0 || count % 4 != 0) return std::nullopt;
-  Parities parities(level);
-  if (!parities.find()) return std::nullopt;
-  Step step;
+  Fours fours(mesh, even);
+  if (!fours.find()) return std::nullopt;
+  Connectivity out;
+  std::vector<Index> numbers(count, kNone);
   for (Index t = 0; t < count; ++t) {
-    const auto even = std::ranges::count_if(level.triangles[t], [&](Index v) { return parities.is_even(v); });
-    if (even > 1) return std::nullopt;
-    if (even == 1) continue;
-    Triangle triangle;
-    if (!surround(level, patches, parities, t, triangle)) return std::nullopt;
-    step.triangles.push_back(triangle);
-    step.patches.push_back(patches[t]);
-    step.centres.push_back(t);
+    if (!fours.is_centre(t)) continue;
+    numbers[t] = static_cast<Index>(out.triangles.size());
+    const auto tip = [&](Index h) { return mesh.start(MeshLevel::previous(mesh.twins[h])); };
+    out.triangles.push_back({tip(3 * t + 2), tip(3 * t), tip(3 * t + 1)});
+    out.patches.push_back(mesh.patches[t]);
+    out.centres.push_back(t);
   }
-  return step.triangles.size() == count / 4 ? std::optional(std::move(step)) : std::nullopt;
+  try {
+    out.twins = detail::find_twins(out.triangles, static_cast<Index>(even.size()));
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+  return same_twins(fours, numbers, out) ? std::optional(std::move(out)) : std::nullopt;
 }
 
-MeshLevel level_of(const Step& step, Index vertex_count) {
-  return detail::make_level(step.triangles, vertex_count,
-                            [&](std::size_t f, std::size_t g) { return step.patches[f] != step.patches[g]; });
-}
-
-// The levels from the finest one, as given, to the coarsest.
-struct Steps {
-  std::vector<Step> steps;
-  std::vector<MeshLevel> levels;
-};
-
-Steps all_steps(const Shell& shell) {
-  Steps found;
-  found.steps.push_back({shell.triangles, detail::patch_of_triangles(shell), {}});
-  const auto points = static_cast<Index>(shell.points.size());
-  found.levels.push_back(level_of(found.steps.back(), points));
-  while (auto step = step_back(found.levels.back(), found.steps.back().patches)) {
-    try {
-      found.levels.push_back(level_of(*step, points));
-    } catch (const Error&) {
-      break;  // the coarser one is no manifold
-    }
-    found.steps.push_back(*std::move(step));
+// From the finest level, as given, to the coarsest.
+std::vector<Connectivity> all_levels(const Shell& shell) {
+  MeshLevel level = detail::make_level(shell, false);
+  std::vector<bool> even(level.vertex_count, false);
+  for (Index v = 0; v < level.vertex_count; ++v) {
+    even[v] = level.valences[v] != (level.sharp_edges[v] > 0 ? kOddBorderValence : kOddValence);
   }
-  return found;
+  std::vector<Connectivity> levels;
+  levels.push_back(
+      {std::move(level.triangles), std::move(level.twins), detail::patch_of_triangles(shell), {}});
+  while (auto next = coarser(levels.back(), even)) levels.push_back(*std::move(next));
+  return levels;
 }
 
 // Goes down the levels again in the order of quadrisected(): for each triangle the halfedge that is its
 // first.
-void number_vertices(const Steps& found, SubdivisionConnectivity& out) {
-  std::size_t level = found.steps.size() - 1;
-  std::vector<Index> first(found.steps[level].triangles.size());
+void number_vertices(const std::vector<Connectivity>& levels, SubdivisionConnectivity& out) {
+  std::size_t level = levels.size() - 1;
+  std::vector<Index> first(levels[level].triangles.size());
   for (Index t = 0; t < first.size(); ++t) first[t] = 3 * t;
   MeshLevel canonical = detail::make_level(out.base, false);
   for (; level > 0; --level) {
-    const MeshLevel& fine = found.levels[level - 1];
-    const std::vector<Index>& centres = found.steps[level].centres;
+    const Connectivity& fine = levels[level - 1];
+    const std::vector<Index>& centres = levels[level].centres;
     std::vector<Index> children(4 * first.size());
     out.order.resize(canonical.vertex_count + canonical.edge_count());
     for (std::size_t t = 0; t < first.size(); ++t) {
@@ -209,15 +194,15 @@ void number_vertices(const Steps& found, SubdivisionConnectivity& out) {
 
 SubdivisionConnectivity find_subdivision(const Shell& shell) {
   SubdivisionConnectivity out;
-  Steps found;
+  std::vector<Connectivity> levels;
   try {
-    found = all_steps(shell);
+    levels = all_levels(shell);
   } catch (const Error&) {
     return out;  // no manifold
   }
-  out.levels = static_cast<unsigned>(found.steps.size() - 1);
+  out.levels = static_cast<unsigned>(levels.size() - 1);
   if (out.levels == 0) return out;
-  const Step& coarsest = found.steps.back();
+  const Connectivity& coarsest = levels.back();
   std::vector<Index> number(shell.points.size(), kNone);
   for (const Triangle& t : coarsest.triangles) {
     for (const Index v : t) number[v] = 0;
@@ -237,7 +222,7 @@ SubdivisionConnectivity find_subdivision(const Shell& shell) {
     patch.triangle_count >>= 2 * out.levels;
     patch.first_triangle >>= 2 * out.levels;
   }
-  number_vertices(found, out);
+  number_vertices(levels, out);
   return out;
 }
 

@@ -2,51 +2,22 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <utility>
+#include <array>
 
-#include "meshcontour/error.hpp"
 #include "multires/patches.hpp"
+#include "multires/twins.hpp"
 
 namespace meshcontour::detail {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) {
-  throw Error(ErrorCode::BadData, what + ": not an orientable manifold");
-}
-
-// Halfedges of the same undirected edge side by side, in order of the smaller end and then of the larger one.
-std::vector<std::pair<std::uint64_t, Index>> sorted_halfedges(const MeshLevel& level) {
-  std::vector<std::pair<std::uint64_t, Index>> keys;
-  keys.reserve(3 * level.triangles.size());
-  for (Index h = 0; h < 3 * level.triangles.size(); ++h) {
-    const auto [low, high] = std::minmax({level.start(h), level.end(h)});
-    if (low == high) refuse(fmt::format("a triangle has vertex {} twice", low));
-    keys.emplace_back(std::uint64_t{low} << 32 | high, h);
-  }
-  std::ranges::sort(keys);
-  return keys;
-}
-
-void find_twins(MeshLevel& level) {
-  level.twins.assign(3 * level.triangles.size(), MeshLevel::kNone);
-  const auto keys = sorted_halfedges(level);
-  for (std::size_t i = 0; i < keys.size();) {
-    std::size_t j = i + 1;
-    while (j < keys.size() && keys[j].first == keys[i].first) ++j;
-    const Index h = keys[i].second;
-    if (j - i > 2) refuse(fmt::format("edge {}-{} has {} triangles", level.start(h), level.end(h), j - i));
-    if (j - i == 2) {
-      const Index twin = keys[i + 1].second;
-      if (level.start(h) == level.start(twin)) {
-        refuse(fmt::format("two triangles run along edge {}-{} the same way", level.start(h), level.end(h)));
-      }
-      level.twins[h] = twin;
-      level.twins[twin] = h;
-    }
-    i = j;
-  }
-}
+// Where the halfedges of its children stand behind 12 f, for triangle f.
+constexpr std::array<Index, 3> kFirstHalf = {0, 4, 8}, kSecondHalf = {3, 7, 2};  // of its edges
+constexpr std::array<Index, 3> kFromOdd = {1, 5,
+                                           2};  // the first that leaves the odd vertex of an edge inside it
+struct InnerEdge {
+  Index halfedge, twin;
+};
+constexpr std::array<InnerEdge, 3> kInnerEdges = {{{1, 11}, {5, 9}, {6, 10}}};  // around the middle one
 
 void number_edges(MeshLevel& level) {
   level.edges.assign(level.twins.size(), MeshLevel::kNone);
@@ -67,44 +38,78 @@ void describe_vertices(MeshLevel& level) {
   level.outgoing.assign(level.vertex_count, MeshLevel::kNone);
   level.sharp_edges.assign(level.vertex_count, 0);
   level.valences.assign(level.vertex_count, 0);
-  for (const Index h : level.first_halfedge) {
-    const bool sharp = level.is_sharp(h);
-    for (const Index v : {level.start(h), level.end(h)}) {
-      ++level.valences[v];
-      if (sharp && level.sharp_edges[v] < 255) ++level.sharp_edges[v];
-    }
-  }
+  // Counter-clockwise from a border halfedge the whole fan is seen, so that one wins.
+  const auto rank = [&](Index h) {
+    return level.twins[h] == MeshLevel::kNone ? 2 : level.is_sharp(h) ? 1 : 0;
+  };
   for (Index h = 0; h < level.twins.size(); ++h) {
-    Index& out = level.outgoing[level.start(h)];
-    // Counter-clockwise from a border halfedge the whole fan is seen, so that one wins.
-    const auto rank = [&](Index g) { return level.twins[g] == MeshLevel::kNone ? 2 : level.is_sharp(g) ? 1 : 0; };
-    if (out == MeshLevel::kNone || rank(h) > rank(out)) out = h;
+    const Index v = level.start(h);
+    const int own = rank(h);
+    const auto count = [&](Index at) {
+      ++level.valences[at];
+      if (own > 0 && level.sharp_edges[at] < 255) ++level.sharp_edges[at];
+    };
+    count(v);
+    if (own == 2) count(level.end(h));  // no halfedge comes back
+    Index& out = level.outgoing[v];
+    if (out == MeshLevel::kNone || (own > 0 && own > rank(out))) out = h;
   }
 }
 
 // Every vertex must be reached by one walk around it.
 void check_fans(const MeshLevel& level) {
-  std::vector<std::uint32_t> triangles(level.vertex_count, 0);
-  for (const Triangle& t : level.triangles) {
-    for (const Index v : t) ++triangles[v];
-  }
   for (Index v = 0; v < level.vertex_count; ++v) {
-    if (level.outgoing[v] == MeshLevel::kNone) continue;
-    std::uint32_t seen = 0;
-    Index h = level.outgoing[v];
+    const Index first = level.outgoing[v];
+    if (first == MeshLevel::kNone) continue;
+    std::uint32_t edges = 0;
+    Index h = first;
     do {
-      ++seen;
+      ++edges;
       h = level.twins[MeshLevel::previous(h)];
-    } while (h != MeshLevel::kNone && h != level.outgoing[v]);
-    if (seen != triangles[v]) refuse(fmt::format("several fans of triangles meet in vertex {}", v));
+    } while (h != MeshLevel::kNone && h != first);
+    if (h == MeshLevel::kNone) ++edges;
+    if (edges != level.valences[v]) {
+      refuse_as_manifold(fmt::format("several fans of triangles meet in vertex {}", v));
+    }
   }
 }
 
-// A child's twin inside its parent, or kNone for the halves of the parent's edges.
-Index inner_twin(Index f, Index child, Index k) {
-  if (child == 3) return 3 * (4 * f + (k + 1) % 3) + (k + 2) % 3;
-  // Child c has its inner edge opposite its own corner c.
-  return k == (child + 1) % 3 ? 3 * (4 * f + 3) + (child + 2) % 3 : MeshLevel::kNone;
+// The opposite halfedges after quadrisection.
+std::vector<Index> refined_twins(const MeshLevel& level) {
+  std::vector<Index> twins(4 * level.twins.size(), MeshLevel::kNone);
+  for (Index f = 0; f < level.triangles.size(); ++f) {
+    for (const auto& [h, twin] : kInnerEdges) {
+      twins[12 * f + h] = 12 * f + twin;
+      twins[12 * f + twin] = 12 * f + h;
+    }
+    for (Index k = 0; k < 3; ++k) {
+      const Index twin = level.twins[3 * f + k];
+      if (twin == MeshLevel::kNone) continue;
+      const Index g = twin / 3, m = twin % 3;
+      twins[12 * f + kFirstHalf[k]] = 12 * g + kSecondHalf[m];
+      twins[12 * f + kSecondHalf[k]] = 12 * g + kFirstHalf[m];
+    }
+  }
+  return twins;
+}
+
+// What describe_vertices() would find: even vertices stay what they are, odd ones are regular.
+void refine_vertices(const MeshLevel& level, MeshLevel& fine) {
+  fine.outgoing.reserve(fine.vertex_count);
+  for (const Index h : level.outgoing) {
+    fine.outgoing.push_back(h == MeshLevel::kNone ? h : 12 * (h / 3) + kFirstHalf[h % 3]);
+  }
+  fine.valences.reserve(fine.vertex_count);
+  fine.valences = level.valences;
+  fine.sharp_edges.reserve(fine.vertex_count);
+  fine.sharp_edges = level.sharp_edges;
+  for (Index e = 0; e < level.edge_count(); ++e) {
+    const Index h = level.first_halfedge[e];
+    const bool sharp = level.sharp[e] != 0;
+    fine.outgoing.push_back(12 * (h / 3) + (sharp ? kSecondHalf : kFromOdd)[h % 3]);
+    fine.valences.push_back(level.twins[h] == MeshLevel::kNone ? 4 : 6);
+    fine.sharp_edges.push_back(sharp ? 2 : 0);
+  }
 }
 
 }  // namespace
@@ -114,7 +119,7 @@ MeshLevel make_level(std::span<const Triangle> triangles, Index vertex_count,
   MeshLevel level;
   level.vertex_count = vertex_count;
   level.triangles.assign(triangles.begin(), triangles.end());
-  find_twins(level);
+  level.twins = find_twins(triangles, vertex_count);
   number_edges(level);
   level.sharp.resize(level.edge_count());
   for (std::size_t e = 0; e < level.edge_count(); ++e) {
@@ -132,39 +137,31 @@ MeshLevel make_level(const Shell& shell, bool patch_borders) {
                     [&](std::size_t f, std::size_t g) { return patch_borders && patches[f] != patches[g]; });
 }
 
-MeshLevel quadrisected(const MeshLevel& level) {
-  MeshLevel fine;
-  fine.vertex_count = level.vertex_count + static_cast<Index>(level.edge_count());
-  const std::size_t count = level.triangles.size();
-  fine.triangles.resize(4 * count);
-  fine.twins.assign(12 * count, MeshLevel::kNone);
-  for (Index f = 0; f < count; ++f) {
+std::vector<Triangle> quadrisected_triangles(const MeshLevel& level) {
+  std::vector<Triangle> fine;
+  fine.reserve(4 * level.triangles.size());
+  for (Index f = 0; f < level.triangles.size(); ++f) {
     const auto& [a, b, c] = level.triangles[f];
     const auto odd = [&](Index k) { return level.vertex_count + level.edges[3 * f + k]; };
     const Index p = odd(0), q = odd(1), r = odd(2);
-    fine.triangles[4 * f] = {a, p, r};
-    fine.triangles[4 * f + 1] = {p, b, q};
-    fine.triangles[4 * f + 2] = {r, q, c};
-    fine.triangles[4 * f + 3] = {p, q, r};
-    for (Index k = 0; k < 3; ++k) {
-      for (Index child = 0; child < 4; ++child) fine.twins[3 * (4 * f + child) + k] = inner_twin(f, child, k);
-      // The first half of edge k lies in child k, the second in the next child; both as their halfedge k.
-      const Index twin = level.twins[3 * f + k];
-      if (twin == MeshLevel::kNone) continue;
-      const Index g = twin / 3, m = twin % 3;
-      fine.twins[3 * (4 * f + k) + k] = 3 * (4 * g + (m + 1) % 3) + m;
-      fine.twins[3 * (4 * f + (k + 1) % 3) + k] = 3 * (4 * g + m) + m;
-    }
+    for (const Triangle& child : {Triangle{a, p, r}, {p, b, q}, {r, q, c}, {p, q, r}}) fine.push_back(child);
   }
+  return fine;
+}
+
+MeshLevel quadrisected(const MeshLevel& level) {
+  MeshLevel fine;
+  fine.vertex_count = level.vertex_count + static_cast<Index>(level.edge_count());
+  fine.triangles = quadrisected_triangles(level);
+  fine.twins = refined_twins(level);
   number_edges(fine);
   fine.sharp.assign(fine.edge_count(), 0);
-  for (Index h = 0; h < level.twins.size(); ++h) {
-    if (!level.is_sharp(h)) continue;
-    const Index f = h / 3, k = h % 3;
-    fine.sharp[fine.edges[3 * (4 * f + k) + k]] = 1;
-    fine.sharp[fine.edges[3 * (4 * f + (k + 1) % 3) + k]] = 1;
+  for (Index e = 0; e < level.edge_count(); ++e) {
+    if (!level.sharp[e]) continue;
+    const Index h = level.first_halfedge[e];
+    for (const auto& half : {kFirstHalf, kSecondHalf}) fine.sharp[fine.edges[12 * (h / 3) + half[h % 3]]] = 1;
   }
-  describe_vertices(fine);
+  refine_vertices(level, fine);
   return fine;
 }
 

@@ -1,5 +1,6 @@
 #include "multires/stencil.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -22,12 +23,11 @@ std::vector<double> butterfly_weights(std::size_t valence) {
 namespace detail {
 namespace {
 
-constexpr double kEnd = 1.0 / 2, kOpposite = 1.0 / 8, kWing = -1.0 / 16;  // the 8-point rule
-constexpr std::uint32_t kRegularValence = 6;
+constexpr std::size_t kTabulated = 64;     // the largest valence with weights at hand
 constexpr std::size_t kRegularSector = 3;  // triangles at a regular vertex of a straight border
 
-// Weights of the ring 0..k of a border vertex with k triangles for its inner edge i [Zorin & Schroeder 2000]; the
-// vertex itself has what is missing to 1, here as the last entry.
+// Weights of the ring 0..k of a border vertex with k triangles for its inner edge i [Zorin & Schroeder 2000];
+// the vertex itself has what is missing to 1, here as the last entry.
 std::vector<double> trigonometric_weights(std::size_t k, std::size_t i) {
   const double n = static_cast<double>(k), theta = std::numbers::pi / n, at = static_cast<double>(i) * theta;
   std::vector<double> weights(k + 2);
@@ -43,6 +43,15 @@ std::vector<double> trigonometric_weights(std::size_t k, std::size_t i) {
 }
 
 }  // namespace
+
+Stencils::Stencils(const MeshLevel& level, BoundaryRule rule) : level_(level), rule_(rule) {
+  std::uint32_t largest = 0;
+  for (const std::uint32_t valence : level.valences) largest = std::max(largest, valence);
+  weights_.resize(std::min<std::size_t>(largest, kTabulated) + 1);
+  for (std::size_t valence = 3; valence < weights_.size(); ++valence) {
+    weights_[valence] = butterfly_weights(valence);
+  }
+}
 
 void Stencils::of_edge(Index edge, std::vector<Term>& terms) const {
   terms.clear();
@@ -69,7 +78,8 @@ bool Stencils::uses_ring(Index h) const {
   return triangles != kRegularSector;
 }
 
-// The other end of the second sharp edge at a vertex that has just two; kNone at the end of a crease and at a corner.
+// The other end of the second sharp edge at a vertex that has just two; kNone at the end of a crease and at a
+// corner.
 Index Stencils::sharp_neighbour(Index v, Index except) const {
   if (level_.sharp_edges[v] != 2) return MeshLevel::kNone;
   const Index first = level_.outgoing[v];
@@ -121,9 +131,11 @@ void Stencils::add_wing(Index h, std::vector<Term>& terms) const {
 void Stencils::add_extraordinary(Index h, double scale, std::vector<Term>& terms) const {
   const Index v = level_.start(h);
   if (level_.sharp_edges[v] > 0) return add_trigonometric(h, scale, terms);
-  const std::vector<double> weights = butterfly_weights(level_.valences[v]);
+  const std::size_t valence = level_.valences[v];
+  const std::vector<double> own =
+      valence < weights_.size() ? std::vector<double>{} : butterfly_weights(valence);
   terms.emplace_back(v, 0.75 * scale);
-  for (const double weight : weights) {
+  for (const double weight : own.empty() ? weights_[valence] : own) {
     terms.emplace_back(level_.end(h), weight * scale);
     h = level_.twins[MeshLevel::previous(h)];
   }

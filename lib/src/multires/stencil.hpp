@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -8,19 +10,30 @@
 
 namespace meshcontour::detail {
 
-/// The modified butterfly rule of a mesh: which even vertices give the odd vertex of an edge, and with what weights.
+/// The modified butterfly rule of a mesh: which even vertices give the odd vertex of an edge, and with what
+/// weights.
 ///
-/// At a sharp edge (border or crease) the 4-point rule along it; it names vertices of sharp edges only. Elsewhere the
-/// 8-point rule at regular ends, the rule of an extraordinary end, or the mean of two. Neighbours are taken in
-/// combinatorial order, never sorted by angle. [Dyn, Levin & Gregory 1990; Zorin, Schroeder & Sweldens 1996]
+/// At a sharp edge (border or crease) the 4-point rule along it; it names vertices of sharp edges only.
+/// Elsewhere the 8-point rule at regular ends, the rule of an extraordinary end, or the mean of two.
+/// Neighbours are taken in combinatorial order, never sorted by angle. [Dyn, Levin & Gregory 1990; Zorin,
+/// Schroeder & Sweldens 1996]
 class Stencils {
  public:
   using Term = std::pair<Index, double>;  ///< vertex and weight
 
-  Stencils(const MeshLevel& level, BoundaryRule rule) : level_(level), rule_(rule) {}
+  /// Vertices of the 8-point rule: the ends of the edge, the corners opposite it, then four wings.
+  using Regular = std::array<Index, 8>;
+  static constexpr double kEnd = 1.0 / 2, kOpposite = 1.0 / 8, kWing = -1.0 / 16;
 
-  /// Replaces `terms` by the stencil of an edge. The weights sum to 1; a vertex may occur more than once; the order is
-  /// fixed.
+  /// @param level  must stay where it is.
+  Stencils(const MeshLevel& level, BoundaryRule rule);
+
+  /// The stencil of an edge whose ends are both regular and touch nothing sharp, as nearly all do after some
+  /// refinement; nothing for others. of_edge() gives the same.
+  std::optional<Regular> regular(Index edge) const;
+
+  /// Replaces `terms` by the stencil of an edge. The weights sum to 1; a vertex may occur more than once; the
+  /// order is fixed.
   void of_edge(Index edge, std::vector<Term>& terms) const;
 
  private:
@@ -29,11 +42,31 @@ class Stencils {
   void add_wing(Index h, std::vector<Term>& terms) const;
   void add_extraordinary(Index h, double scale, std::vector<Term>& terms) const;
   void add_trigonometric(Index h, double scale, std::vector<Term>& terms) const;
+  bool is_regular(Index v) const {
+    return level_.sharp_edges[v] == 0 && level_.valences[v] == kRegularValence;
+  }
   bool uses_ring(Index h) const;
   Index sharp_neighbour(Index v, Index except) const;
 
+  static constexpr std::uint32_t kRegularValence = 6;
+
   const MeshLevel& level_;
   BoundaryRule rule_;
+  std::vector<std::vector<double>> weights_;  // of the ring around an extraordinary vertex, by its valence
 };
+
+inline std::optional<Stencils::Regular> Stencils::regular(Index edge) const {
+  const Index h = level_.first_halfedge[edge], u = level_.start(h), v = level_.end(h);
+  if (!is_regular(u) || !is_regular(v)) return std::nullopt;
+  const Index twin = level_.twins[h];
+  return Regular{u,
+                 v,
+                 level_.opposite(h),
+                 level_.opposite(twin),
+                 level_.tip(MeshLevel::next(h)),
+                 level_.tip(MeshLevel::previous(h)),
+                 level_.tip(MeshLevel::next(twin)),
+                 level_.tip(MeshLevel::previous(twin))};
+}
 
 }  // namespace meshcontour::detail

@@ -63,14 +63,17 @@ Shell subdivided(const Shell& shell, unsigned levels, const SubdivisionOptions& 
     refine(level, options, fine.point_colors);
     for (Eigen::Vector4d& color : fine.point_colors) color = color.cwiseMax(0).cwiseMin(1);
     refine(level, options, fine.texture_coordinates);
-    level = detail::quadrisected(level);
+    if (step + 1 == levels) {
+      fine.triangles = detail::quadrisected_triangles(level);
+    } else {
+      level = detail::quadrisected(level);
+    }
     fine.corner_normals = refined_normals(fine.corner_normals);
     for (Patch& patch : fine.patches) {
       patch.first_triangle *= 4;
       patch.triangle_count *= 4;
     }
   }
-  fine.triangles = std::move(level.triangles);
   return fine;
 }
 
