@@ -1,6 +1,7 @@
 #include "model/normals.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -15,10 +16,10 @@ constexpr std::size_t kGrain = 4096;
 constexpr double kCreaseCosine = 0.8191520442889918;  // of 35 degrees
 constexpr std::size_t kCompared = 64;                 // corners of a patch at a vertex
 
-// A corner's share in the normal of its vertex.
+// A triangle's shares in the normals of its vertices.
 struct Facet {
   Vector normal = Vector::Zero();  // of length 1, or zero for a triangle without area
-  double angle = 0;
+  std::array<double, 3> angles{};
 };
 
 Vector facet_normal(const Shell& shell, const Triangle& t) {
@@ -59,14 +60,15 @@ struct Incidence {
 void smooth(std::span<const std::size_t> corners, const std::vector<Facet>& facets,
             std::vector<Normal>& normals) {
   Vector all = Vector::Zero();
-  for (const std::size_t c : corners) all += facets[c].angle * facets[c].normal;
+  const auto share = [&](std::size_t c) { return Vector(facets[c / 3].angles[c % 3] * facets[c / 3].normal); };
+  for (const std::size_t c : corners) all += share(c);
   for (const std::size_t c : corners) {
-    const Vector& own = facets[c].normal;
+    const Vector& own = facets[c / 3].normal;
     Vector sum = all;
     if (corners.size() <= kCompared) {
       sum.setZero();
       for (const std::size_t other : corners) {
-        if (facets[other].normal.dot(own) >= kCreaseCosine) sum += facets[other].angle * facets[other].normal;
+        if (facets[other / 3].normal.dot(own) >= kCreaseCosine) sum += share(other);
       }
     }
     sum.normalize();
@@ -84,12 +86,11 @@ std::vector<std::size_t> patch_of_triangles(const Shell& shell) {
 }
 
 std::vector<Facet> make_facets(const Shell& shell, unsigned threads) {
-  std::vector<Facet> facets(3 * shell.triangles.size());
+  std::vector<Facet> facets(shell.triangles.size());
   parallel_for(shell.triangles.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Vector normal = facet_normal(shell, shell.triangles[i]);
-      for (std::size_t c = 0; c < 3; ++c)
-        facets[3 * i + c] = {normal, corner_angle(shell, shell.triangles[i], c)};
+      facets[i].normal = facet_normal(shell, shell.triangles[i]);
+      for (std::size_t c = 0; c < 3; ++c) facets[i].angles[c] = corner_angle(shell, shell.triangles[i], c);
     }
   });
   return facets;

@@ -93,12 +93,12 @@ LocalFrame local_frame(const Box& box) {
 
 Placement place(const Camera& camera, const LocalFrame& frame, const Eigen::Affine3d& placement) {
   const Eigen::Matrix3d linear = camera.scale * camera.axes * placement.linear();
+  const Vector shift = camera.scale * (camera.axes * (placement * frame.center - camera.center));
   Placement result;
-  result.to_eye = Eigen::Matrix4d::Identity();
-  result.to_eye.topLeftCorner<3, 3>() = linear * frame.size;
-  result.to_eye.topRightCorner<3, 1>() =
-      camera.scale * (camera.axes * (placement * frame.center - camera.center));
-  result.to_eye(2, 3) -= camera.distance;
+  result.depth = shift.z() - camera.distance;
+  result.to_eye = Eigen::Matrix4f::Identity();
+  result.to_eye.topLeftCorner<3, 3>() = (linear * frame.size).cast<float>();
+  result.to_eye.topRightCorner<3, 1>() = Vector(shift.x(), shift.y(), result.depth).cast<float>();
   result.mirrored = placement.linear().determinant() < 0;
   return result;
 }

@@ -104,9 +104,9 @@ void set_light(bool lit) {
 void draw_range(const Range& range, const std::vector<Placement>& placements, double bias, GLenum mode) {
   glMatrixMode(GL_MODELVIEW);
   for (const Placement& placement : placements) {
-    Eigen::Matrix4d to_eye = placement.to_eye;
-    to_eye(2, 3) += bias;
-    glLoadMatrixd(to_eye.data());
+    Eigen::Matrix4f to_eye = placement.to_eye;
+    to_eye(2, 3) = static_cast<float>(placement.depth + bias);
+    glLoadMatrixf(to_eye.data());
     glFrontFace(placement.mirrored ? GL_CW : GL_CCW);
     // Large ranges go in parts, which hold whole triangles and lines: counts are ints.
     constexpr std::size_t kPart = 6 << 24;

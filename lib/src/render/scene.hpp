@@ -58,9 +58,11 @@ struct Batch {
   std::vector<float> control;        ///< of the runs
 };
 
-/// One occurrence of a frame.
+/// One occurrence of a frame. There may be millions; the rasterizer takes single precision, once the bias of a batch
+/// has been added to the depth.
 struct Placement {
-  Eigen::Matrix4d to_eye;
+  Eigen::Matrix4f to_eye;
+  double depth = 0;  ///< to_eye(2, 3)
   bool mirrored = false;
 };
 

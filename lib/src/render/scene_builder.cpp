@@ -131,7 +131,22 @@ Placement picture_placement(const Scene& scene) {
   Eigen::Matrix4d to_clip = Eigen::Matrix4d::Identity();
   to_clip.diagonal() << 2.0 / scene.width, 2.0 / scene.height, -1e-3, 1;
   to_clip.topRightCorner<3, 1>() << -1, -1, kNear;
-  return {scene.projection.inverse() * to_clip, false};
+  const Eigen::Matrix4d to_eye = scene.projection.inverse() * to_clip;
+  return {to_eye.cast<float>(), to_eye(2, 3), false};
+}
+
+void place_frames(const Drawing& drawing, Scene& scene) {
+  const auto& instances = drawing.model.instances;
+  scene.frames.resize(drawing.frames.size());
+  std::vector<std::size_t> counts(scene.frames.size(), 0);
+  for (const Instance& instance : instances) ++counts[instance.shell];
+  for (std::size_t s = 0; s < counts.size(); ++s) scene.frames[s].reserve(counts[s]);
+  for (const Instance& instance : instances) {
+    const LocalFrame& frame = drawing.frames[instance.shell];
+    scene.frames[instance.shell].push_back(place(drawing.camera, frame, instance.placement));
+  }
+  scene.frames.back().push_back(place(drawing.camera, drawing.frames.back(), Eigen::Affine3d::Identity()));
+  scene.frames.push_back({picture_placement(scene)});
 }
 
 void apply(const LayerStyle& style, std::size_t first_batch, Scene& scene) {
@@ -139,7 +154,8 @@ void apply(const LayerStyle& style, std::size_t first_batch, Scene& scene) {
     Batch& batch = scene.batches[b];
     if (style.width && batch.kind != Batch::Kind::Triangles) batch.size = static_cast<float>(*style.width);
     if (!style.color) continue;
-    for (std::size_t v = batch.first; v < batch.first + batch.count; ++v) scene.vertices[v].color = *style.color;
+    for (std::size_t v = batch.first; v < batch.first + batch.count; ++v)
+      scene.vertices[v].color = *style.color;
     for (CurveRun& run : batch.runs) run.color = *style.color;
   }
 }
@@ -164,13 +180,7 @@ Scene build_scene(const Model& model, std::span<const ShellBoundary> boundaries,
   scene.height = options.height;
   scene.projection = drawing.camera.projection;
   scene.background = premultiplied(options.background);
-  scene.frames.resize(drawing.frames.size());
-  for (const Instance& instance : model.instances) {
-    const LocalFrame& frame = drawing.frames[instance.shell];
-    scene.frames[instance.shell].push_back(place(drawing.camera, frame, instance.placement));
-  }
-  scene.frames.back().push_back(place(drawing.camera, drawing.frames.back(), Eigen::Affine3d::Identity()));
-  scene.frames.push_back({picture_placement(scene)});
+  place_frames(drawing, scene);
   constexpr double kLayerStep = 1e-4;  // eye units: a fraction of a pixel
   for (const Layer layer : options.layers) {
     drawing.bias += kLayerStep;
