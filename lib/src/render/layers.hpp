@@ -19,6 +19,7 @@ struct Drawing {
   Camera camera;
   Palette palette;
   std::vector<LocalFrame> frames{};
+  std::vector<Eigen::Vector3d> extents{};  ///< of each shell: its points lie within +- these in its frame
   std::vector<double> magnification{};     ///< of the largest placement of each frame; 0 when it has none
   std::vector<std::size_t> first_patch{};  ///< number of a shell's first patch over the whole model
   float line_scale = 1;                    ///< larger pictures have wider lines

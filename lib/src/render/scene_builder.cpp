@@ -5,6 +5,7 @@
 
 #include "meshcontour/parallel.hpp"
 #include "render/layers.hpp"
+#include "render/tiny_placements.hpp"
 
 namespace meshcontour::detail {
 namespace {
@@ -101,7 +102,9 @@ Camera fitted_camera(const Model& model, const RenderOptions& options) {
 void add_frames(Drawing& drawing) {
   std::size_t patches = 0;
   for (const Shell& shell : drawing.model.shells) {
-    drawing.frames.push_back(local_frame(bounding_box(shell)));
+    const Box box = bounding_box(shell);
+    drawing.frames.push_back(local_frame(box));
+    drawing.extents.push_back(box.isEmpty() ? Vector::Zero() : Vector(box.sizes() / 2 / drawing.frames.back().size));
     drawing.first_patch.push_back(patches);
     patches += shell.patches.size();
   }
@@ -186,6 +189,7 @@ Scene build_scene(const Model& model, std::span<const ShellBoundary> boundaries,
     drawing.bias += kLayerStep;
     if (!is_legend(layer)) add_styled_layer(drawing, layer, scene);
   }
+  leave_out_tiny(scene, drawing.extents);
   scene.model_batches = scene.batches.size();
   for (const Layer layer : options.layers) {
     if (is_legend(layer)) add_styled_layer(drawing, layer, scene);
