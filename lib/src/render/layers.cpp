@@ -118,8 +118,7 @@ using Edge = std::array<Index, 2>;
 void make_unique(std::vector<Edge>& edges) {
   for (Edge& edge : edges) std::ranges::sort(edge);
   std::ranges::sort(edges);
-  const auto repeated = std::ranges::unique(edges);
-  edges.erase(repeated.begin(), repeated.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
 }
 
 void add_edge_lines(const Shell& shell, const LocalFrame& frame, const std::vector<Edge>& edges,

@@ -40,7 +40,7 @@ class DxfFile {
   void point(int code, const Point& p);
 
   /// Entities from here to end_group() are selected together.
-  void begin_group() { groups_.emplace_back(open_group_ = ++last_, 0); }
+  void begin_group() { groups_.push_back({open_group_ = ++last_, 0}); }
   void end_group() {
     groups_.back().last = last_;
     open_group_ = 0;
