@@ -2,13 +2,13 @@
 
 #include <string>
 
+#include "fuzz/outcome.hpp"
 #include "fuzz/targets.hpp"
 #include "meshcontour/mesh_write.hpp"
 #include "meshcontour/output.hpp"
 #include "meshcontour/read.hpp"
 #include "multires/stream_blocks.hpp"
 #include "read/webxml.hpp"
-#include "unit/read/webxml_text.hpp"
 
 namespace fuzz {
 namespace {
@@ -21,24 +21,6 @@ ReadOptions limits() {
   options.max_instances = 1'000;
   options.threads = 1;
   return options;
-}
-
-std::string_view text_of(Bytes input) {
-  return {reinterpret_cast<const char*>(input.data()), input.size()};
-}
-
-// What a reader makes of an input: its model bit by bit, or that it refuses it. Of several faults the two
-// ways of reading may name either.
-template <typename Read>
-std::string outcome(const Read& read) {
-  try {
-    const Model model = read();
-    validate(model);
-    return webxml_text::fingerprint(model) + webxml_text::texts(model.diagnostics);
-  } catch (const Error& error) {
-    require(error.code() != ErrorCode::Internal, error.what());
-    return "refused";
-  }
 }
 
 void read_named(Bytes input, const char* name) {

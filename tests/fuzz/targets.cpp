@@ -8,7 +8,7 @@
 namespace fuzz {
 
 Target find_target(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, Target>, 12> kTargets = {{{"webxml", read_webxml_both_ways},
+  constexpr std::array<std::pair<std::string_view, Target>, 13> kTargets = {{{"webxml", read_webxml_both_ways},
                                                                             {"swp", read_swp},
                                                                             {"stl", read_stl},
                                                                             {"obj", read_obj},
@@ -16,6 +16,7 @@ Target find_target(std::string_view name) {
                                                                             {"off", read_off},
                                                                             {"net", read_net},
                                                                             {"wavelet", read_wavelet},
+                                                                            {"files", read_files},
                                                                             {"numbers", scan_numbers},
                                                                             {"loops", trace_loops},
                                                                             {"fit", fit_loop},

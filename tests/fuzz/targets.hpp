@@ -52,6 +52,7 @@ void read_ply(Bytes input);
 void read_off(Bytes input);
 void read_net(Bytes input);
 void read_wavelet(Bytes input);
+void read_files(Bytes input);
 void scan_numbers(Bytes input);
 void trace_loops(Bytes input);
 void fit_loop(Bytes input);

@@ -87,12 +87,6 @@ bool is_integer(PlyType type) {
   return type < PlyType::Float32;
 }
 
-std::optional<std::size_t> PlyElement::find(std::string_view property) const {
-  const auto found = std::ranges::find(properties, property, &PlyProperty::name);
-  if (found == properties.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - properties.begin());
-}
-
 PlyHeader read_ply_header(TextCursor& in) {
   PlyHeader header;
   in.expect("ply");

@@ -25,9 +25,6 @@ struct PlyElement {
   std::string name;
   std::uint64_t count = 0;  ///< as declared; checked against the bytes that follow
   std::vector<PlyProperty> properties;
-
-  /// The index of the first property of a name.
-  std::optional<std::size_t> find(std::string_view property) const;
 };
 
 enum class PlyEncoding { Text, LittleEndian, BigEndian };
