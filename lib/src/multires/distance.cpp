@@ -37,9 +37,11 @@ Point centre_of(const Polygon& polygon) {
 // The parts of a polygon on both sides of a plane; a side with less than a triangle is empty.
 std::pair<Polygon, Polygon> split(const Polygon& polygon, const Point& origin, const Vector& normal) {
   std::pair<Polygon, Polygon> parts;
+  bool flat = true;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
     const double a = normal.dot(p - origin), b = normal.dot(q - origin);
+    flat = flat && a == 0;
     if (a >= 0) parts.first.push_back(p);
     if (a <= 0) parts.second.push_back(p);
     if ((a > 0 && b < 0) || (a < 0 && b > 0)) {
@@ -49,7 +51,6 @@ std::pair<Polygon, Polygon> split(const Polygon& polygon, const Point& origin, c
     }
   }
   // What lies in the plane as a whole belongs to the first side.
-  const bool flat = parts.first.size() == polygon.size() && parts.second.size() == polygon.size();
   if (parts.first.size() < 3) parts.first.clear();
   if (parts.second.size() < 3 || flat) parts.second.clear();
   return parts;
@@ -174,15 +175,18 @@ SurfaceDistance largest(std::size_t count, unsigned threads, const Measure& meas
   return all;
 }
 
-// A first look: the corners alone.
-double corner_distance(const TriangleTree& from, const TriangleTree& to, unsigned threads) {
-  return largest(from.size(), threads,
+// A first look: the vertices alone, each once however many triangles it has.
+double vertex_distance(const Shell& from, std::size_t patch, const TriangleTree& to, unsigned threads) {
+  std::vector<Index> vertices;
+  for (const Triangle& t : from.patch_triangles(patch)) vertices.insert(vertices.end(), t.begin(), t.end());
+  std::ranges::sort(vertices);
+  const auto repeated = std::ranges::unique(vertices);
+  vertices.erase(repeated.begin(), repeated.end());
+  return largest(vertices.size(), threads,
                  [&](std::size_t begin, std::size_t end) {
                    double squared = 0;
-                   for (std::size_t t = begin; t < end; ++t) {
-                     for (const Point& p : from.corners(static_cast<Index>(t))) {
-                       squared = std::max(squared, to.nearest(p).squared);
-                     }
+                   for (std::size_t i = begin; i < end; ++i) {
+                     squared = std::max(squared, to.nearest(from.points[vertices[i]]).squared);
                    }
                    return SurfaceDistance{std::sqrt(squared), 0};
                  })
@@ -212,7 +216,7 @@ SurfaceDistance patch_distance(const Shell& a, const Shell& b, unsigned threads)
     if (one.size() == 0 || other.size() == 0)
       throw Error(ErrorCode::Internal, fmt::format("patch {} is gone", p + 1));
     all.lower =
-        std::max({all.lower, corner_distance(one, other, threads), corner_distance(other, one, threads)});
+        std::max({all.lower, vertex_distance(a, p, other, threads), vertex_distance(b, p, one, threads)});
     const double enough = (1 + kSlack) * all.lower + resolution;
     for (const SurfaceDistance& d : {one_sided(one, other, enough, resolution, threads),
                                      one_sided(other, one, enough, resolution, threads)}) {

@@ -8,48 +8,70 @@
 namespace meshcontour::detail {
 namespace {
 
-constexpr int kCompression = 19;
-constexpr std::size_t kHeadSize = 5;  // kind and length
+constexpr int kCompression = 19, kFastCompression = 9;
+constexpr std::size_t kThorough = std::size_t{1} << 22;  // bytes; what comes behind them is compressed fast
+constexpr std::size_t kHeadSize = 5;                     // kind and length
 
-// Each part gets statistics of its own.
-std::string compressed(std::span<const std::string_view> parts) {
-  const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
-  if (!context) throw Error(ErrorCode::OutOfMemory, "wavelet stream: no memory to compress");
-  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, kCompression);
-  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
-  std::string out;
-  for (const std::string_view& part : parts) {
-    const ZSTD_EndDirective directive = &part == &parts.back() ? ZSTD_e_end : ZSTD_e_flush;
-    ZSTD_inBuffer input{part.data(), part.size(), 0};
-    for (std::size_t rest = 1; rest > 0;) {
-      const std::size_t begin = out.size();
-      out.resize(begin + ZSTD_CStreamOutSize());
-      ZSTD_outBuffer output{out.data() + begin, out.size() - begin, 0};
-      rest = ZSTD_compressStream2(context.get(), &output, &input, directive);
-      if (ZSTD_isError(rest))
-        throw Error(ErrorCode::Internal, std::string("zstd: ") + ZSTD_getErrorName(rest));
-      out.resize(begin + output.pos);
-    }
-  }
-  return out;
+void check(std::size_t result) {
+  if (ZSTD_isError(result))
+    throw Error(ErrorCode::Internal, std::string("zstd: ") + ZSTD_getErrorName(result));
 }
 
 }  // namespace
 
-BlockWriter::BlockWriter(Sink& sink) : sink_(sink) {
+// One for all blocks: making one costs far more than most blocks do.
+struct BlockWriter::Compressor {
+  std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context{ZSTD_createCCtx(), ZSTD_freeCCtx};
+
+  Compressor() {
+    if (!context) throw Error(ErrorCode::OutOfMemory, "wavelet stream: no memory to compress");
+    check(ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1));
+  }
+
+  // Each part gets statistics of its own.
+  std::string compressed(std::span<const std::string_view> parts, int level) const {
+    std::size_t size = 0;
+    for (const std::string_view& part : parts) size += part.size();
+    check(ZSTD_CCtx_reset(context.get(), ZSTD_reset_session_only));
+    check(ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, level));
+    check(ZSTD_CCtx_setPledgedSrcSize(context.get(), size));  // tables no larger than the block needs
+    std::string out;
+    for (const std::string_view& part : parts) {
+      const ZSTD_EndDirective directive = &part == &parts.back() ? ZSTD_e_end : ZSTD_e_flush;
+      ZSTD_inBuffer input{part.data(), part.size(), 0};
+      for (std::size_t rest = 1; rest > 0;) {
+        const std::size_t begin = out.size();
+        out.resize(begin + ZSTD_CStreamOutSize());
+        ZSTD_outBuffer output{out.data() + begin, out.size() - begin, 0};
+        rest = ZSTD_compressStream2(context.get(), &output, &input, directive);
+        check(rest);
+        out.resize(begin + output.pos);
+      }
+    }
+    return out;
+  }
+};
+
+BlockWriter::BlockWriter(Sink& sink) : sink_(sink), compressor_(std::make_unique<Compressor>()) {
   sink_.write(kStreamSignature);
   sink_.write({reinterpret_cast<const char*>(&kStreamVersion), 1});
 }
 
+BlockWriter::~BlockWriter() = default;
+
 void BlockWriter::write(BlockKind kind, std::string_view bytes) {
-  for (; !bytes.empty(); bytes.remove_prefix(std::min(bytes.size(), kLargestBlock))) {
-    const std::string_view part = bytes.substr(0, kLargestBlock);
-    write(kind, std::span(&part, 1));
+  for (std::size_t begin = 0; begin < bytes.size(); begin += kLargestBlock) {
+    const std::string_view part = bytes.substr(begin, kLargestBlock);
+    put(kind,
+        compressor_->compressed(std::span(&part, 1), begin < kThorough ? kCompression : kFastCompression));
   }
 }
 
 void BlockWriter::write(BlockKind kind, std::span<const std::string_view> parts) {
-  const std::string block = compressed(parts);
+  put(kind, compressor_->compressed(parts, kCompression));
+}
+
+void BlockWriter::put(BlockKind kind, std::string_view block) {
   ByteWriter head;
   head.byte(static_cast<std::uint8_t>(kind));
   head.fixed(block.size(), 4);

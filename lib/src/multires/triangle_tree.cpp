@@ -8,6 +8,7 @@ namespace meshcontour::detail {
 namespace {
 
 constexpr Index kLeafSize = 4;
+constexpr double kRounding = 1e-14;      // of a coordinate
 constexpr std::size_t kStackSize = 128;  // twice the depth of a tree that is halved at each node
 
 Point nearest_on_segment(const Point& a, const Point& b, const Point& p) {
@@ -23,6 +24,23 @@ Point nearest_on_sides(const Corners& t, const Point& p) {
     if ((q - p).squaredNorm() < (best - p).squaredNorm()) best = q;
   }
   return best;
+}
+
+// Adds one of two opposite vectors, whichever makes the sum longer.
+void add_aligned(Vector& sum, const Vector& v) {
+  if (sum.dot(v) < 0) {
+    sum -= v;
+  } else {
+    sum += v;
+  }
+}
+
+Vector longest_side(const Corners& t) {
+  Vector longest = t[1] - t[0];
+  for (const Vector& side : {Vector(t[2] - t[1]), Vector(t[0] - t[2])}) {
+    if (side.squaredNorm() > longest.squaredNorm()) longest = side;
+  }
+  return longest;
 }
 
 }  // namespace
@@ -59,6 +77,35 @@ TriangleTree::TriangleTree(std::span<const Point> points, std::span<const Triang
   corners_ = std::move(ordered);
 }
 
+void TriangleTree::bound(Node& node, std::span<const Index> triangles) const {
+  Vector normal = Vector::Zero(), along = Vector::Zero();
+  for (const Index t : triangles) {
+    const auto& [a, b, c] = corners_[t];
+    for (const Point& corner : corners_[t]) node.box.extend(corner);
+    add_aligned(normal, (b - a).cross(c - a));
+    add_aligned(along, longest_side(corners_[t]));
+  }
+  node.across = normal.stableNormalized().cross(along.stableNormalized()).stableNormalized();
+  node.low = std::numeric_limits<double>::infinity();
+  node.high = -node.low;
+  double size = 0;
+  for (const Index t : triangles) {
+    for (const Point& corner : corners_[t]) {
+      const double at = node.across.dot(corner);
+      node.low = std::min(node.low, at);
+      node.high = std::max(node.high, at);
+      size = std::max(size, corner.cwiseAbs().maxCoeff());
+    }
+  }
+  node.low -= kRounding * size;
+  node.high += kRounding * size;
+}
+
+double TriangleTree::squared_distance(const Node& node, const Point& p) {
+  const double at = node.across.dot(p), beyond = std::max({node.low - at, at - node.high, 0.0});
+  return std::max(node.box.squaredExteriorDistance(p), beyond * beyond);
+}
+
 void TriangleTree::build() {
   struct Task {
     Index first, count, parent;
@@ -75,10 +122,9 @@ void TriangleTree::build() {
     if (index > 0 && index != parent + 1) nodes_[parent].second = index;
     Node& node = nodes_.emplace_back();
     Box spread;
-    for (Index i = first; i < first + count; ++i) {
-      for (const Point& corner : corners_[number_[i]]) node.box.extend(corner);
-      spread.extend(centres[number_[i]]);
-    }
+    const std::span<const Index> triangles(number_.data() + first, count);
+    bound(node, triangles);
+    for (const Index t : triangles) spread.extend(centres[t]);
     if (count <= kLeafSize) {
       node.first = first;
       node.count = count;
@@ -110,8 +156,8 @@ TriangleTree::Hit TriangleTree::nearest(const Point& p) const {
       if (squared < best.squared) best = {squared, number_[i]};
     }
     if (node.count > 0) continue;
-    std::pair<Index, double> near{index + 1, nodes_[index + 1].box.squaredExteriorDistance(p)};
-    std::pair<Index, double> far{node.second, nodes_[node.second].box.squaredExteriorDistance(p)};
+    std::pair<Index, double> near{index + 1, squared_distance(nodes_[index + 1], p)};
+    std::pair<Index, double> far{node.second, squared_distance(nodes_[node.second], p)};
     if (far.second < near.second) std::swap(near, far);
     stack[size++] = far;
     stack[size++] = near;

@@ -33,13 +33,18 @@ class TriangleTree {
   std::size_t size() const { return corners_.size(); }
 
  private:
+  // A box and a slab: long triangles askew to the axes fill little of a box, and overlap in many.
   struct Node {
     Box box;
+    Vector across = Vector::Zero();  // along the surface, across the triangles' long sides
+    double low = 0, high = 0;        // of the triangles along it
     Index first = 0, count = 0;  // of a leaf; an inner node's children follow at `second` and behind itself
     Index second = 0;
   };
 
   void build();
+  void bound(Node& node, std::span<const Index> triangles) const;
+  static double squared_distance(const Node& node, const Point& p);
 
   std::vector<Corners> corners_;  // in the order of the leaves
   std::vector<Index> number_;     // in the list given, of each

@@ -1,6 +1,9 @@
 #include "meshcontour/simplification.hpp"
 
+#include <numbers>
+
 #include "meshcontour/cleaning.hpp"
+#include "multires/triangle_tree.hpp"
 #include "support/catch.hpp"
 #include "support/dirty_meshes.hpp"
 #include "surfaces.hpp"
@@ -119,6 +122,64 @@ TEST_CASE("patch_distance: a dent between the corners is seen", "[multires]") {
   CHECK(d.lower <= 0.125 + 1e-12);
   CHECK(d.upper >= 0.125 - 1e-12);
   CHECK(d.upper <= 0.13);
+}
+
+TEST_CASE("patch_distance: both halves of a triangle cut through a corner are seen", "[multires]") {
+  // The one triangle is cut in the middle, through its tip; the other surface has a hole in one half.
+  const double side = GENERATE(-1.0, 1.0);
+  const Shell whole = surfaces::shell_of({{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  std::vector<Point> points = {{-side, 0, 0}, {0, 0, 0}, {side, 0, 0}, {0, 1, 0}};
+  const Point centre = (points[1] + points[2] + points[3]) / 3;
+  for (std::size_t v = 1; v < 4; ++v) points.push_back((points[v] + centre) / 2);
+  const Shell holed = surfaces::shell_of(
+      points, {{0, 1, 3}, {1, 2, 5}, {1, 5, 4}, {2, 3, 6}, {2, 6, 5}, {3, 1, 4}, {3, 4, 6}});
+  const SurfaceDistance d = patch_distance(whole, holed, 1);
+  const double expected = (2 - std::sqrt(2.0)) / 4;  // the radius of the circle in the hole
+  CHECK(d.lower <= expected + 1e-12);
+  CHECK(d.upper >= expected - 1e-12);
+  CHECK(d.upper <= 1.03 * expected);
+}
+
+TEST_CASE("TriangleTree: the nearest of long triangles askew is the nearest of all", "[multires][property]") {
+  std::mt19937 random(5);
+  const auto anywhere = [&] {
+    const double x = surfaces::uniform(random), y = surfaces::uniform(random);
+    return Point(x, y, surfaces::uniform(random));
+  };
+  const Point hub = anywhere();
+  const Vector along = anywhere();
+  std::vector<Point> points;
+  std::vector<Triangle> triangles;
+  for (Index i = 0; i < 500; ++i) {
+    const Point start = i % 3 == 0 ? hub : anywhere(), end = i % 3 == 2 ? Point(start + along) : anywhere();
+    points.insert(points.end(), {start, end, Point(end + 1e-3 * anywhere())});
+    triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const detail::TriangleTree tree(points, triangles);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Point p = trial == 0 ? hub : trial % 2 == 0 ? Point(hub + 1e-4 * anywhere()) : anywhere();
+    double nearest = 1e300;
+    for (const auto& [a, b, c] : triangles) {
+      nearest =
+          std::min(nearest, (detail::nearest_point({points[a], points[b], points[c]}, p) - p).squaredNorm());
+    }
+    CHECK(tree.nearest(p).squared == nearest);
+  }
+}
+
+TEST_CASE("simplify_shell: a fan of many triangles around one vertex ends", "[multires]") {
+  const Index count = 20000;
+  std::vector<Point> points = {{0, 0, 0}};
+  std::vector<Triangle> triangles;
+  for (Index i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    points.push_back({std::cos(angle), std::sin(angle), 0});
+    triangles.push_back({0, 1 + i, 1 + (i + 1) % count});
+  }
+  const Shell fan = surfaces::shell_of(std::move(points), std::move(triangles));
+  const Shell fewer = simplified(fan, SimplifyGoal::Triangles, 5000);
+  CHECK(fewer.triangles.size() <= 5000);
+  CHECK(patch_distance(fan, fewer, 1).upper <= 1e-6);
 }
 
 TEST_CASE("patch_distance: slivers that rounding leaves between triangles end", "[multires]") {

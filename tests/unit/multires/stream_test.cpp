@@ -72,6 +72,27 @@ TEST_CASE("wavelet stream: comes back within a few steps, patches and instances 
   CHECK(back.instances[1].placement.matrix() == model.instances[1].placement.matrix());
 }
 
+TEST_CASE("wavelet stream: many instances come back from few bytes", "[multires]") {
+  Model model;
+  model.shells = {surfaces::octahedron()};
+  for (int i = 0; i < 60000; ++i) {
+    Instance placed;
+    placed.placement = Eigen::Translation3d(i % 100, i / 100, 0);
+    placed.path = std::to_string(i);
+    model.instances.push_back(std::move(placed));
+  }
+  const std::string bytes = stream_of(model);
+  CHECK(bytes.size() < 1'000'000);  // of six million
+  const Model back = read_back(bytes);
+  REQUIRE(back.instances.size() == model.instances.size());
+  bool same = true;
+  for (std::size_t i = 0; i < back.instances.size(); ++i) {
+    same = same && back.instances[i].path == model.instances[i].path &&
+           back.instances[i].placement.matrix() == model.instances[i].placement.matrix();
+  }
+  CHECK(same);
+}
+
 TEST_CASE("wavelet stream: it is recognised by its content", "[multires][read]") {
   const Model model = read_model(stream_of(sample_model()), "unnamed");
   CHECK(model.shells.size() == 2);
