@@ -14,6 +14,8 @@
 namespace meshcontour::detail {
 namespace {
 
+constexpr std::size_t kThreadedBytes = 1 << 18;  // starting threads takes longer than to scan so much
+
 // A piece of a body on its way through the scan.
 struct Job {
   std::size_t body, piece;
@@ -102,12 +104,17 @@ class ContentReader {
 
   void scan() {
     std::vector<Job> jobs;
+    std::size_t bytes = 0;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       states_[b].scanned = bodies_[b].plain;
-      const std::size_t pieces = bodies_[b].plain ? bodies_[b].outline.pieces.size() : 0;
-      for (std::size_t piece = 0; piece < pieces; ++piece) jobs.push_back({b, piece});
+      const auto& pieces = bodies_[b].outline.pieces;
+      for (std::size_t piece = 0; bodies_[b].plain && piece < pieces.size(); ++piece) {
+        bytes += pieces[piece].end - pieces[piece].begin;
+        jobs.push_back({b, piece});
+      }
     }
-    parallel_for(jobs.size(), 1, options_.threads, [&](std::size_t begin, std::size_t end) {
+    const std::size_t grain = bytes > kThreadedBytes ? 1 : std::max<std::size_t>(jobs.size(), 1);
+    parallel_for(jobs.size(), grain, options_.threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t j = begin; j < end; ++j) scan(jobs[j]);
     });
     for (const Job& job : jobs) {
