@@ -46,7 +46,7 @@ bool differs(const std::vector<std::uint8_t>& samples, std::size_t size,
 bool average_into(Image& image, const Readback& part) {
   const int columns = std::min(part.width, image.width - part.left);
   const int rows = std::min(part.height, image.height - part.bottom);
-  constexpr int kBand = 64;  // pixel rows at a time: the samples stay in the cache
+  constexpr int kBand = 16;  // pixel rows at a time: the samples stay in the cache
   const auto pixels = static_cast<std::size_t>(columns);
   const std::size_t sample_row = 8 * pixels;
   std::vector<std::uint8_t> samples(sample_row * 2 * kBand);

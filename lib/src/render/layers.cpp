@@ -97,6 +97,7 @@ void add_triangles(const Drawing& drawing, bool by_detail, Scene& scene) {
     batch.bias = 0;
     batch.first = scene.vertices.size();
     batch.count = 3 * triangles;
+    scene.vertices.reserve(batch.first + 2 * batch.count);  // lines will follow; pages not used cost nothing
     scene.vertices.resize(batch.first + batch.count);
     fill_triangles(drawing, s, by_detail ? detail_colors(drawing.model.shells[s]) : std::vector<Rgba>{},
                    scene.vertices.data() + batch.first);
