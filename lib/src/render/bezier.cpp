@@ -98,8 +98,9 @@ double chord_error(const BezierCurve& curve, std::size_t piece) {
 }
 
 int chords(double error, double tolerance) {
+  if (error <= tolerance) return 1;
   const double count = std::sqrt(error / tolerance);
-  return count < kMaxChords ? std::max(1, static_cast<int>(std::ceil(count))) : static_cast<int>(kMaxChords);
+  return static_cast<int>(count < kMaxChords ? std::ceil(count) : kMaxChords);
 }
 
 void join_chords(std::vector<Chord>& row, double tolerance) {
