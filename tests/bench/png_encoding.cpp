@@ -8,18 +8,11 @@
 #include <cstdlib>
 
 #include "bench/bench.hpp"
+#include "bench/stb_writer.hpp"
 #include "meshcontour/fit.hpp"
 #include "meshcontour/read.hpp"
 #include "meshcontour/render.hpp"
 #include "write/png.hpp"
-
-#define STB_IMAGE_WRITE_STATIC
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#include <stb/stb_image_write.h>
-#pragma GCC diagnostic pop
 
 using namespace meshcontour;
 

@@ -20,14 +20,7 @@
 #include <vector>
 
 #include "bench/bench.hpp"
-
-#define STB_IMAGE_WRITE_STATIC
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#include <stb/stb_image_write.h>
-#pragma GCC diagnostic pop
+#include "bench/stb_writer.hpp"
 
 namespace {
 
@@ -194,6 +187,7 @@ void set_camera() {
   glTranslatef(0, 0, -4);
   glScalef(0.015F, 0.015F, 0.015F);
   glRotatef(45, 1, 1, -1);
+  glClearColor(0, 0, 0, 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
