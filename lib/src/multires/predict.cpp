@@ -1,7 +1,7 @@
 #include "multires/predict.hpp"
 
 #include "meshcontour/parallel.hpp"
-#include "multires/stencil.hpp"
+#include "multires/hub.hpp"
 
 namespace meshcontour::detail {
 namespace {
@@ -40,6 +40,7 @@ void add_prediction(const MeshLevel& level, const SubdivisionOptions& options, d
       odd += sign * general_sum(terms, points);
     }
   });
+  add_hub_predictions(stencils, sign, points);
 }
 
 }  // namespace meshcontour::detail

@@ -23,7 +23,6 @@ std::vector<double> butterfly_weights(std::size_t valence) {
 namespace detail {
 namespace {
 
-constexpr std::size_t kTabulated = 64;     // the largest valence with weights at hand
 constexpr std::size_t kRegularSector = 3;  // triangles at a regular vertex of a straight border
 
 // Weights of the ring 0..k of a border vertex with k triangles for its inner edge i [Zorin & Schroeder 2000];
@@ -45,12 +44,27 @@ std::vector<double> trigonometric_weights(std::size_t k, std::size_t i) {
 }  // namespace
 
 Stencils::Stencils(const MeshLevel& level, BoundaryRule rule) : level_(level), rule_(rule) {
-  std::uint32_t largest = 0;
-  for (const std::uint32_t valence : level.valences) largest = std::max(largest, valence);
-  weights_.resize(std::min<std::size_t>(largest, kTabulated) + 1);
+  std::size_t largest = 0;
+  for (Index v = 0; v < level.vertex_count; ++v) {
+    largest = std::max<std::size_t>(largest, level.valences[v]);
+    if (is_hub(v)) hubs_.push_back(v);
+  }
+  weights_.resize(std::min(largest, kLargestRing) + 1);
   for (std::size_t valence = 3; valence < weights_.size(); ++valence) {
     weights_[valence] = butterfly_weights(valence);
   }
+}
+
+std::vector<Stencils::Spoke> Stencils::spokes(Index hub) const {
+  std::vector<Spoke> out;
+  const Index first = level_.outgoing[hub];
+  Index h = first;
+  do {
+    const double scale = uses_ring(level_.twins[h]) ? 0.5 : 1;
+    out.push_back({level_.vertex_count + level_.edges[h], level_.end(h), scale});
+    h = level_.twins[MeshLevel::previous(h)];
+  } while (h != first);
+  return out;
 }
 
 void Stencils::of_edge(Index edge, std::vector<Term>& terms) const {
@@ -131,11 +145,9 @@ void Stencils::add_wing(Index h, std::vector<Term>& terms) const {
 void Stencils::add_extraordinary(Index h, double scale, std::vector<Term>& terms) const {
   const Index v = level_.start(h);
   if (level_.sharp_edges[v] > 0) return add_trigonometric(h, scale, terms);
-  const std::size_t valence = level_.valences[v];
-  const std::vector<double> own =
-      valence < weights_.size() ? std::vector<double>{} : butterfly_weights(valence);
-  terms.emplace_back(v, 0.75 * scale);
-  for (const double weight : own.empty() ? weights_[valence] : own) {
+  if (is_hub(v)) return;
+  terms.emplace_back(v, kCentre * scale);
+  for (const double weight : weights_[level_.valences[v]]) {
     terms.emplace_back(level_.end(h), weight * scale);
     h = level_.twins[MeshLevel::previous(h)];
   }

@@ -24,6 +24,7 @@ class Stencils {
   /// Vertices of the 8-point rule: the ends of the edge, the corners opposite it, then four wings.
   using Regular = std::array<Index, 8>;
   static constexpr double kEnd = 1.0 / 2, kOpposite = 1.0 / 8, kWing = -1.0 / 16;
+  static constexpr double kCentre = 3.0 / 4;  // of an extraordinary vertex
 
   /// @param level  must stay where it is.
   Stencils(const MeshLevel& level, BoundaryRule rule);
@@ -32,9 +33,21 @@ class Stencils {
   /// refinement; nothing for others. of_edge() gives the same.
   std::optional<Regular> regular(Index edge) const;
 
-  /// Replaces `terms` by the stencil of an edge. The weights sum to 1; a vertex may occur more than once; the
-  /// order is fixed.
+  /// Replaces `terms` by the stencil of an edge, without what hubs give; where there is none the weights sum
+  /// to 1. A vertex may occur more than once; the order is fixed.
   void of_edge(Index edge, std::vector<Term>& terms) const;
+
+  /// Inner vertices of so many edges that their stencils, each with all neighbours, would be too large
+  /// together; what they give is left to add_hub_predictions().
+  const std::vector<Index>& hubs() const { return hubs_; }
+
+  /// An edge of a hub: the odd vertex in its middle, its other end, and the share of the hub's rule in it.
+  struct Spoke {
+    Index odd, end;
+    double scale;
+  };
+  /// In cyclic order.
+  std::vector<Spoke> spokes(Index hub) const;
 
  private:
   void add_sharp(Index h, std::vector<Term>& terms) const;
@@ -50,8 +63,13 @@ class Stencils {
 
   static constexpr std::uint32_t kRegularValence = 6;
 
+  static constexpr std::size_t kLargestRing = 64;  // edges of a vertex that is no hub
+
+  bool is_hub(Index v) const { return level_.sharp_edges[v] == 0 && level_.valences[v] > kLargestRing; }
+
   const MeshLevel& level_;
   BoundaryRule rule_;
+  std::vector<Index> hubs_;
   std::vector<std::vector<double>> weights_;  // of the ring around an extraordinary vertex, by its valence
 };
 

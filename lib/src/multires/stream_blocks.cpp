@@ -9,7 +9,7 @@ namespace meshcontour::detail {
 namespace {
 
 constexpr int kCompression = 19, kFastCompression = 9;
-constexpr std::size_t kThorough = std::size_t{1} << 22;  // bytes; what comes behind them is compressed fast
+constexpr std::size_t kThorough = std::size_t{1} << 20;  // bytes; what comes behind them is compressed fast
 constexpr std::size_t kHeadSize = 5;                     // kind and length
 
 void check(std::size_t result) {

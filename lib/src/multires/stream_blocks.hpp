@@ -33,7 +33,7 @@ class BlockWriter {
   explicit BlockWriter(Sink& sink);
   ~BlockWriter();
 
-  /// Writes bytes as blocks of one kind, cut where they are too many for one; after four million less
+  /// Writes bytes as blocks of one kind, cut where they are too many for one; after a million less
   /// thoroughly packed, which takes a small part of the time.
   void write(BlockKind kind, std::string_view bytes);
 

@@ -4,9 +4,9 @@
 
 #include <limits>
 
+#include "multires/hub.hpp"
 #include "multires/level.hpp"
 #include "multires/predict.hpp"
-#include "multires/stencil.hpp"
 
 namespace meshcontour {
 namespace {
@@ -42,6 +42,9 @@ void refine(const MeshLevel& level, const SubdivisionOptions& options, std::vect
       for (const auto& [vertex, weight] : terms) value += weight * values[vertex];
     }
     values.push_back(value);
+  }
+  if (options.attributes == AttributeRule::Butterfly) {
+    detail::add_hub_predictions(stencils, 1, std::span<Value>(values));
   }
 }
 

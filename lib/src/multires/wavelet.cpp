@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "multires/hub.hpp"
 #include "multires/level.hpp"
 #include "multires/predict.hpp"
-#include "multires/stencil.hpp"
 
 namespace meshcontour {
 namespace {
@@ -78,6 +78,7 @@ struct WaveletTransform::Implementation {
           integrals[j][vertex] += weight * integrals[j + 1][level.vertex_count + e];
         }
       }
+      detail::add_hub_transposed(stencils, integrals[j + 1], integrals[j]);
     }
   }
 

@@ -42,6 +42,19 @@ Shell rings_around(Index k, Index rings) {
   return surfaces::shell_of(std::move(points), std::move(triangles));
 }
 
+// Two tips, each joined to all of k points between them.
+Shell bipyramid(Index k) {
+  std::vector<Point> points = {{0, 0, 1}, {0, 0, -1}};
+  std::vector<Triangle> triangles;
+  for (Index i = 0; i < k; ++i) {
+    const double angle = 2 * std::numbers::pi * i / k;
+    points.push_back({std::cos(angle), std::sin(angle), 0});
+    const Index here = 2 + i, next = 2 + (i + 1) % k;
+    triangles.insert(triangles.end(), {{0, here, next}, {1, next, here}});
+  }
+  return surfaces::shell_of(std::move(points), std::move(triangles));
+}
+
 // A regular lattice: n x n squares of two triangles, points sheared so that triangles are alike.
 Shell lattice(Index n) {
   Shell shell = surfaces::height_field(n, false, 0);
@@ -66,6 +79,8 @@ Shell some_base(int kind) {
   if (kind == 0) return surfaces::octahedron();
   if (kind == 1) return rings_around(7, 2);
   if (kind == 2) return surfaces::height_field(4, true);
+  if (kind == 4) return rings_around(100, 1);
+  if (kind == 5) return bipyramid(100);
   return surfaces::bumpy_sphere(1);
 }
 
@@ -153,8 +168,28 @@ TEST_CASE("subdivided: cubics are kept inside regular lattices, linear functions
   CHECK(worst_linear <= 1e-13);
 }
 
+TEST_CASE("subdivided: the rule of a vertex with hundreds of edges is that of the others", "[multires]") {
+  const Index valence = GENERATE(65u, 300u);
+  Shell shell = rings_around(valence, 2);
+  std::mt19937 random(3);
+  for (Point& p : shell.points) p += 0.3 * Point(uniform(random), uniform(random), uniform(random));
+  const Shell fine = subdivided(shell, 1);
+  const std::vector<double> weights = butterfly_weights(valence);
+  const MeshLevel level = detail::make_level(shell);
+  for (Index h = 0; h < level.twins.size(); ++h) {
+    if (level.start(h) != 0) continue;
+    Point expected = 0.75 * shell.points[0];
+    Index spoke = h;
+    for (const double weight : weights) {
+      expected += weight * shell.points[level.end(spoke)];
+      spoke = level.twins[MeshLevel::previous(spoke)];
+    }
+    CHECK((fine.points[level.vertex_count + level.edges[h]] - expected).norm() <= 1e-14);
+  }
+}
+
 TEST_CASE("WaveletTransform: random details come back, the mean stays", "[multires][property]") {
-  const int kind = GENERATE(range(0, 4));
+  const int kind = GENERATE(range(0, 6));
   const unsigned levels = kind == 0 ? 8 : 4;
   const Shell base = some_base(kind);
   const WaveletTransform transform(base, levels);
@@ -175,7 +210,7 @@ TEST_CASE("WaveletTransform: random details come back, the mean stays", "[multir
 }
 
 TEST_CASE("WaveletTransform: a subdivided mesh has no details", "[multires][property]") {
-  const Shell base = some_base(GENERATE(range(0, 4)));
+  const Shell base = some_base(GENERATE(range(0, 6)));
   const WaveletTransform transform(base, 3);
   std::vector<Point> points = subdivided(base, 3).points;
   const double size = largest(points);
