@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 namespace shapes {
 
@@ -361,8 +363,9 @@ meshcontour::Model model_of(const std::vector<Point>& loop) {
 std::vector<meshcontour::ShellBoundary> boundary_of(const std::vector<Point>& loop) {
   std::vector<meshcontour::ShellBoundary> boundaries(1);
   meshcontour::PatchBoundary& patch = boundaries[0].patches.emplace_back();
-  meshcontour::BoundaryLoop& only = patch.loops.emplace_back();
-  for (std::size_t i = 0; i < loop.size(); ++i) only.vertices.push_back(static_cast<Index>(i));
+  std::vector<Index> vertices(loop.size());
+  std::iota(vertices.begin(), vertices.end(), Index{0});
+  patch.loops = {meshcontour::BoundaryLoop{std::move(vertices), true}};
   patch.vertex_count = loop.size();
   return boundaries;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "meshcontour/model.hpp"
+#include "meshcontour/shared_array.hpp"
 
 namespace meshcontour {
 
@@ -20,17 +21,16 @@ struct BoundaryEdge {
 ///
 /// A closed loop starts with its smallest edge by (from, to); an open chain runs that edge forwards.
 struct BoundaryLoop {
-  std::vector<Index> vertices;  ///< indices into Shell::points; the first is not repeated at the end
+  SharedArray<Index> vertices;  ///< indices into Shell::points; the first is not repeated at the end
   bool closed = true;           ///< false: an open chain, found only where the input itself is broken
   friend bool operator==(const BoundaryLoop&, const BoundaryLoop&) = default;
 };
 
 /// The boundary of one patch.
 struct PatchBoundary {
-  std::vector<BoundaryEdge> edges;  ///< sorted by (from, to)
-  std::vector<BoundaryLoop>
-      loops;                     ///< by their smallest edges, whatever the extractor or the number of threads
-  std::size_t vertex_count = 0;  ///< boundary vertices, each once
+  SharedArray<BoundaryEdge> edges;     ///< sorted by (from, to)
+  SharedArray<BoundaryLoop> loops;     ///< by their smallest edges, whatever the extractor and the threads
+  std::size_t vertex_count = 0;        ///< boundary vertices, each once
   std::size_t nonmanifold_edges = 0;   ///< edges with three or more triangles; see extract_boundaries
   std::size_t unheld_triangles = 0;    ///< `Halfedge` only: triangles that the Surface_mesh could not hold
   std::size_t inconsistent_edges = 0;  ///< edges whose two triangles run the same way

@@ -37,7 +37,9 @@ std::vector<BoundaryLoop> trace_loops(std::span<const Triangle> triangles,
   auto loops =
       detail::trace_loops(numbering.numbered(triangles), numbered, numbering.size(), workspace).loops;
   for (BoundaryLoop& loop : loops) {
-    for (Index& v : loop.vertices) v = numbering.vertex(v);
+    std::vector<Index> vertices(loop.vertices.begin(), loop.vertices.end());
+    for (Index& v : vertices) v = numbering.vertex(v);
+    loop.vertices = std::move(vertices);
   }
   return loops;
 }

@@ -27,7 +27,7 @@ VerticesByPatch valence_vertices(const Model& model, unsigned threads) {
   return result;
 }
 
-std::vector<Index> ends_of(const std::vector<BoundaryEdge>& edges) {
+std::vector<Index> ends_of(std::span<const BoundaryEdge> edges) {
   std::vector<Index> ends;
   for (const auto& [from, to] : edges) ends.insert(ends.end(), {from, to});
   std::ranges::sort(ends);

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kTableTriangles = 200;  // up to here a table of all edges is faster than the filter
 constexpr std::size_t kTableSlots = 2048;
+constexpr std::size_t kFewTriangles = 1 << 15;  // up to here the sums of a patch stay in a fast cache
 
 // How often an edge occurs from its smaller to its larger end, and back.
 struct Uses {
@@ -83,8 +84,9 @@ void add_fingerprints(std::span<const Triangle> triangles, std::uint64_t* sums) 
     sums[b] += hc - ha;
     sums[c] += ha - hb;
   };
-  // Triangles in no order find their sums in slow memory, unless they are asked for ahead of time.
-  const std::size_t ahead = std::min<std::size_t>(16, triangles.size());
+  // Triangles in no order find sums that are many in slow memory, unless they are asked for ahead of time.
+  const std::size_t ahead =
+      std::min<std::size_t>(triangles.size(), triangles.size() > kFewTriangles ? 16 : kFewTriangles);
   for (std::size_t i = 0; i + ahead < triangles.size(); ++i) {
     for (const Index v : triangles[i + ahead]) __builtin_prefetch(sums + v, 1);
     add(triangles[i]);

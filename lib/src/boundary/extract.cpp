@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/large_array.hpp"
 #include "boundary/edge_filter.hpp"
 #include "boundary/halfedge.hpp"
 #include "boundary/loops.hpp"
@@ -19,8 +20,8 @@ PatchBoundary sorted_boundary(const Shell& shell, std::size_t patch, detail::Wor
   if (detail::small_patch_boundary(triangles, shell.points.size(), workspace, boundary)) return boundary;
   const detail::EdgeCensus& census = detail::census_of_edges(triangles, shell.points.size(), workspace);
   detail::LoopTrace trace = detail::trace_loops(triangles, census.boundary, shell.points.size(), workspace);
-  boundary.edges = census.boundary;
-  boundary.loops = std::move(trace.loops);
+  boundary.edges = workspace.edge_arrays.make(workspace.census.boundary);
+  boundary.loops = workspace.loop_arrays.make(trace.loops);
   boundary.vertex_count = trace.vertices;
   boundary.nonmanifold_edges = census.nonmanifold;
   boundary.inconsistent_edges = census.inconsistent;
@@ -78,6 +79,7 @@ std::vector<ShellBoundary> extract_boundaries(const Model& model, const Boundary
     if (shell.points.size() >= detail::kVertexLimit) {
       throw Error(ErrorCode::OutOfMemory, fmt::format("shell {}: 2^31 points or more", printable(shell.id)));
     }
+    detail::reserve_large(boundaries[i].patches, shell.patches.size());
     boundaries[i].patches.resize(shell.patches.size());
   }
   detail::WorkspacePool pool;

@@ -189,17 +189,16 @@ End loop_start(std::size_t i, const EndPairing& pairing) {
 
 BoundaryLoop walk(End start, std::span<const BoundaryEdge> edges, const EndPairing& pairing,
                   std::vector<bool>& visited) {
-  BoundaryLoop loop;
+  std::vector<Index> vertices;
   for (End end = start;;) {
     const BoundaryEdge& edge = edges[end / 2];
     visited[end / 2] = true;
-    loop.vertices.push_back(end % 2 == 0 ? edge.from : edge.to);
+    vertices.push_back(end % 2 == 0 ? edge.from : edge.to);
     const End next = pairing.mate(end ^ 1);
-    if (next == start) return loop;
+    if (next == start) return {std::move(vertices), true};
     if (next == kOpen) {
-      loop.vertices.push_back(end % 2 == 0 ? edge.to : edge.from);
-      loop.closed = false;
-      return loop;
+      vertices.push_back(end % 2 == 0 ? edge.to : edge.from);
+      return {std::move(vertices), false};
     }
     end = next;
   }

@@ -46,7 +46,8 @@ std::vector<Index> simple_successors(std::span<const BoundaryEdge> edges, EdgesB
   return next;
 }
 
-std::vector<BoundaryLoop> follow(std::span<const BoundaryEdge> edges, std::vector<Index> next) {
+std::vector<BoundaryLoop> follow(std::span<const BoundaryEdge> edges, std::vector<Index> next,
+                                 ArrayBlocks<Index>& arrays) {
   constexpr Index kDone = std::numeric_limits<Index>::max();
   std::vector<BoundaryLoop> loops;
   std::vector<Index> path;
@@ -57,7 +58,7 @@ std::vector<BoundaryLoop> follow(std::span<const BoundaryEdge> edges, std::vecto
       path.push_back(edges[i].from);
       i = std::exchange(next[i], kDone);
     }
-    loops.push_back({{path.begin(), path.end()}, true});
+    loops.push_back({arrays.make(path), true});
   }
   return loops;
 }
@@ -69,7 +70,7 @@ LoopTrace trace_loops(std::span<const Triangle> triangles, std::span<const Bound
   if (edges.empty()) return {};
   EdgesByStart by_start(edges, vertex_bound, workspace.slots);
   std::vector<Index> next = simple_successors(edges, by_start);
-  if (!next.empty()) return {follow(edges, std::move(next)), edges.size(), 0};
+  if (!next.empty()) return {follow(edges, std::move(next), workspace.vertex_arrays), edges.size(), 0};
   return trace_paired(triangles, edges, vertex_bound, workspace);
 }
 

@@ -209,14 +209,18 @@ class BorderWalk {
         visited_(mesh.number_of_halfedges()) {}
 
   void run(PatchBoundary& boundary) {
+    std::vector<BoundaryEdge> edges;
     std::vector<std::pair<BoundaryEdge, BoundaryLoop>> loops;
     for (const Halfedge border : mesh_.halfedges()) {
       const Halfedge start = mesh_.opposite(border);
-      if (mesh_.is_border(border) && !visited_[start]) loops.push_back(walk(start, boundary.edges));
+      if (mesh_.is_border(border) && !visited_[start]) loops.push_back(walk(start, edges));
     }
-    std::ranges::sort(boundary.edges);
+    std::ranges::sort(edges);
+    boundary.edges = std::move(edges);
     std::ranges::sort(loops, {}, [](const auto& loop) { return loop.first; });
-    for (auto& [edge, loop] : loops) boundary.loops.push_back(std::move(loop));
+    std::vector<BoundaryLoop> sorted;
+    for (auto& [edge, loop] : loops) sorted.push_back(std::move(loop));
+    boundary.loops = std::move(sorted);
   }
 
  private:
@@ -238,11 +242,11 @@ class BorderWalk {
     std::rotate(halfedges.begin(), first, halfedges.end());
     const bool backwards = flipped_[mesh_.face(halfedges[0])];
     if (backwards) std::ranges::reverse(halfedges.begin() + 1, halfedges.end());
-    BoundaryLoop loop;
+    std::vector<Index> vertices;
     for (const Halfedge h : halfedges) {
-      loop.vertices.push_back(index_[backwards ? mesh_.target(h) : mesh_.source(h)]);
+      vertices.push_back(index_[backwards ? mesh_.target(h) : mesh_.source(h)]);
     }
-    return {edge(halfedges[0]), std::move(loop)};
+    return {edge(halfedges[0]), {std::move(vertices), true}};
   }
 
   const SurfaceMesh& mesh_;

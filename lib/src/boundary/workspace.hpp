@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cassert>
-#include <cstdlib>
 #include <memory>
 #include <mutex>
-#include <new>
 #include <utility>
 #include <vector>
 
+#include "base/large_array.hpp"
+#include "boundary/array_blocks.hpp"
 #include "meshcontour/boundary.hpp"
 
 namespace meshcontour::detail {
@@ -20,24 +20,20 @@ class ZeroedArray {
   /// At least `size` elements. Growing zeroes everything.
   void reserve(std::size_t size) {
     if (size <= size_) return;
-    data_.reset();
+    memory_ = {};
     size_ = 0;
-    data_.reset(static_cast<Number*>(std::calloc(size, sizeof(Number))));
-    if (!data_) throw std::bad_alloc();
+    memory_ = ZeroedMemory(size * sizeof(Number));
     size_ = size;
   }
 
-  Number* data() { return data_.get(); }
+  Number* data() { return static_cast<Number*>(memory_.data()); }
   Number& operator[](std::size_t i) {
     assert(i < size_);
-    return data_.get()[i];
+    return data()[i];
   }
 
  private:
-  struct Free {
-    void operator()(Number* p) const { std::free(p); }
-  };
-  std::unique_ptr<Number, Free> data_;
+  ZeroedMemory memory_;
   std::size_t size_ = 0;
 };
 
@@ -54,6 +50,10 @@ struct Workspace {
   ZeroedArray<Index> slots;         ///< one a vertex of the shell; a hint to be checked, so never reset
   EdgeCensus census;                ///< of the last patch
   std::vector<std::uint64_t> edges, marks;  ///< scratch of the edge filter
+  std::vector<BoundaryLoop> loops;          ///< scratch of small patches
+  ArrayBlocks<BoundaryEdge> edge_arrays;    ///< the memory of results
+  ArrayBlocks<BoundaryLoop> loop_arrays;
+  ArrayBlocks<Index> vertex_arrays;
 };
 
 /// Hands out workspaces to the parts of a parallel loop; at most one a thread is made.

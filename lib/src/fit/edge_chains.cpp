@@ -129,7 +129,8 @@ class ChainFinder {
     if (chain == kNone) {
       const std::size_t number = result.chains.size();
       for (std::size_t k = 0; k < loop.vertices.size(); ++k) chain_of_[chord_of_[first_chord + k]] = number;
-      result.chains.push_back({loop.vertices, true, patches_of(chord_of_[first_chord]).size() > 1});
+      const bool shared = patches_of(chord_of_[first_chord]).size() > 1;
+      result.chains.push_back({{loop.vertices.begin(), loop.vertices.end()}, true, shared});
       return {number, 0, false};
     }
     const std::vector<Index>& vertices = result.chains[chain].vertices;

@@ -80,7 +80,7 @@ class ModelRecognizer {
     settings_[s].assign(result.fits.size(), common);
     for (RecognitionOptions& chain : settings_[s]) chain.tolerance = kInfinity;
     for (std::size_t p = 0; p < boundaries_[s].patches.size(); ++p) {
-      const std::vector<BoundaryLoop>& loops = boundaries_[s].patches[p].loops;
+      const SharedArray<BoundaryLoop>& loops = boundaries_[s].patches[p].loops;
       for (std::size_t l = 0; l < loops.size(); ++l) {
         const double diagonal = diagonal_of(shell, loops[l]);
         if (!is_usable_size(diagonal)) continue;

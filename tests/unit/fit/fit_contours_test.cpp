@@ -23,14 +23,13 @@ struct Loops {
 
   void add(const std::vector<Point>& points, bool closed = true) {
     Shell& shell = model.shells[0];
-    BoundaryLoop loop;
-    loop.closed = closed;
+    std::vector<Index> vertices;
     for (const Point& p : points) {
-      loop.vertices.push_back(static_cast<Index>(shell.points.size()));
+      vertices.push_back(static_cast<Index>(shell.points.size()));
       shell.points.push_back(p);
     }
     PatchBoundary patch;
-    patch.loops = {loop};
+    patch.loops = {BoundaryLoop{vertices, closed}};
     boundaries[0].patches.push_back(patch);
   }
 

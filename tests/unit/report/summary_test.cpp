@@ -6,8 +6,13 @@ using Catch::Contains;
 
 TEST_CASE("counts_of: boundary points once a shell, edges a patch", "[report]") {
   Sample s = sample();
-  s.boundaries[0].patches[1].edges.push_back({0, 1});
-  s.boundaries[0].patches[1].loops[0].closed = false;
+  PatchBoundary& patch = s.boundaries[0].patches[1];
+  std::vector<BoundaryEdge> edges(patch.edges.begin(), patch.edges.end());
+  edges.push_back({0, 1});
+  patch.edges = std::move(edges);
+  std::vector<BoundaryLoop> loops(patch.loops.begin(), patch.loops.end());
+  loops[0].closed = false;
+  patch.loops = std::move(loops);
   s.model.instances.push_back(s.model.instances[0]);
   const Counts counts = counts_of(s.model, s.boundaries, s.contours);
   CHECK(counts.shells == 1);
