@@ -91,7 +91,7 @@ TEST_CASE("find_edge_chains: the uses of a loop walk its vertices in order", "[f
   const ShellBoundary boundary = extract_boundaries(model, {}, diagnostics)[0];
   const ShellChains chains = find_edge_chains(shell, boundary);
   for (std::size_t p = 0; p < boundary.patches.size(); ++p) {
-    const std::vector<Index>& loop = boundary.patches[p].loops.at(0).vertices;
+    const SharedArray<Index>& loop = boundary.patches[p].loops[0].vertices;
     for (const ChainUse& use : chains.uses[p][0]) {
       const std::vector<Index> vertices = walked(chains, use);
       for (std::size_t i = 0; i < vertices.size(); ++i)

@@ -4,15 +4,23 @@
 using namespace meshcontour;
 using Catch::Contains;
 
+namespace {
+
+void open_loop(PatchBoundary& patch, std::size_t number) {
+  std::vector<BoundaryLoop> loops(patch.loops.begin(), patch.loops.end());
+  loops[number].closed = false;
+  patch.loops = std::move(loops);
+}
+
+}  // namespace
+
 TEST_CASE("counts_of: boundary points once a shell, edges a patch", "[report]") {
   Sample s = sample();
   PatchBoundary& patch = s.boundaries[0].patches[1];
   std::vector<BoundaryEdge> edges(patch.edges.begin(), patch.edges.end());
   edges.push_back({0, 1});
   patch.edges = std::move(edges);
-  std::vector<BoundaryLoop> loops(patch.loops.begin(), patch.loops.end());
-  loops[0].closed = false;
-  patch.loops = std::move(loops);
+  open_loop(patch, 0);
   s.model.instances.push_back(s.model.instances[0]);
   const Counts counts = counts_of(s.model, s.boundaries, s.contours);
   CHECK(counts.shells == 1);
@@ -29,7 +37,7 @@ TEST_CASE("counts_of: boundary points once a shell, edges a patch", "[report]") 
 
 TEST_CASE("summary: counts, a row a patch, a row a stage", "[report]") {
   Sample s = sample();
-  s.boundaries[0].patches[1].loops[3].closed = false;
+  open_loop(s.boundaries[0].patches[1], 3);
   const std::vector<StageTime> timings = {{"read", 0, 12.345, 10, 2}, {"loops", 0, 1, 2, 5}};
   const std::string text = summary(s.model, s.boundaries, s.contours, timings);
   INFO(text);
@@ -51,7 +59,7 @@ TEST_CASE("summary: many patches are counted by their loops, and those that stan
   shell.patches.resize(200);
   s.boundaries[0].patches.resize(200);
   s.boundaries[0].patches[149].nonmanifold_edges = 1;
-  s.boundaries[0].patches[1].loops[0].closed = false;
+  open_loop(s.boundaries[0].patches[1], 0);
   const std::string text = summary(s.model, s.boundaries, {}, {});
   INFO(text);
   CHECK_THAT(text,
