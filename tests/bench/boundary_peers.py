@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Boundary loops of grids with holes: meshcontour beside VTK and libigl, one thread, in turn, processor time.
+"""Boundary loops of grids with holes: meshcontour beside VTK, libigl and trimesh, one thread, in turn, processor time.
 
-Usage: boundary_peers.py PROGRAM [ROUNDS [TRIANGLES...]]; needs numpy, vtk and libigl. The meshes are given to each in
+Usage: boundary_peers.py PROGRAM [ROUNDS [TRIANGLES...]]; needs numpy, and takes of vtk, libigl and trimesh what is
+installed. The meshes are given to each in
 its own form before the clock starts; every answer is compared with ours: boundary edges and loops."""
 
 import json
@@ -12,12 +13,7 @@ import sys
 import tempfile
 import time
 
-import igl
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-from vtkmodules.vtkFiltersCore import vtkFeatureEdges, vtkStripper
 
 
 def grid(triangles, shuffled):
@@ -66,6 +62,11 @@ class Vtk:
     name = "VTK feature edges and stripper"
 
     def __init__(self, _, points, corners, __):
+        from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+        from vtkmodules.vtkCommonCore import vtkPoints
+        from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+        from vtkmodules.vtkFiltersCore import vtkFeatureEdges, vtkStripper
+        self.filters = vtkFeatureEdges, vtkStripper
         self.data = vtkPolyData()
         vertices, cells = vtkPoints(), vtkCellArray()
         vertices.SetData(numpy_to_vtk(points, deep=True))
@@ -76,14 +77,13 @@ class Vtk:
 
     def run(self):
         start = time.process_time()
-        edges = vtkFeatureEdges()
+        edges, strips = (kind() for kind in self.filters)
         edges.SetInputData(self.data)
         edges.BoundaryEdgesOn()
         edges.FeatureEdgesOff()
         edges.NonManifoldEdgesOff()
         edges.ManifoldEdgesOff()
         edges.ColoringOff()
-        strips = vtkStripper()
         strips.SetInputConnection(edges.GetOutputPort())
         strips.SetMaximumLength(1 << 30)
         strips.JoinContiguousSegmentsOn()
@@ -96,13 +96,38 @@ class Igl:
     name = "libigl boundary_facets and boundary_loop_all"
 
     def __init__(self, _, __, corners, ___):
-        self.corners = corners.astype(np.int64)
+        import igl
+        self.igl, self.corners = igl, corners.astype(np.int64)
 
     def run(self):
         start = time.process_time()
-        facets = igl.boundary_facets(self.corners)
-        loops = igl.boundary_loop_all(self.corners)
+        facets = self.igl.boundary_facets(self.corners)
+        loops = self.igl.boundary_loop_all(self.corners)
         return time.process_time() - start, (len(facets[0] if isinstance(facets, tuple) else facets), len(loops))
+
+
+class Trimesh:
+    name = "trimesh outline"
+
+    def __init__(self, _, points, corners, __):
+        import trimesh
+        if len(corners) > 2_000_000:
+            raise ImportError("takes minutes")
+        self.mesh = lambda: trimesh.Trimesh(points, corners, process=False)
+
+    def run(self):
+        start = time.process_time()
+        entities = self.mesh().outline().entities
+        seconds = time.process_time() - start
+        return seconds, (sum(len(entity.points) - 1 for entity in entities), len(entities))
+
+
+def contenders(*arguments):
+    for kind in (Ours, Vtk, Igl, Trimesh):
+        try:
+            yield kind(*arguments)
+        except ImportError as error:
+            print(f"skipped: {kind.name}: {error}", file=sys.stderr)
 
 
 def main(program, rounds="5", *sizes):
@@ -111,7 +136,7 @@ def main(program, rounds="5", *sizes):
         for shuffled in (False, True):
             points, corners = grid(size, shuffled)
             with tempfile.TemporaryDirectory() as folder:
-                peers = [kind(program, points, corners, pathlib.Path(folder)) for kind in (Ours, Vtk, Igl)]
+                peers = list(contenders(program, points, corners, pathlib.Path(folder)))
                 times = {peer.name: [] for peer in peers}
                 for _ in range(int(rounds)):
                     answers = {}

@@ -6,7 +6,7 @@ tolerances, to be as near to the true curve as ours is. Times: ours beside one c
 factor, found before by bisection, that just keeps the tolerance at the points; of FITPACK's routine alone, without the
 Python around it. Ours includes the search for the knots and the certificate. Run by the Python of scripts/extended_env.
 
-usage: spline_peers.py FILE.json
+usage: spline_peers.py FILE.json [times]    times: these alone
 """
 
 import json
@@ -14,10 +14,6 @@ import sys
 import time
 
 import numpy as np
-from OCP.collections import Array1_gp_Pnt
-from OCP.GeomAbs import GeomAbs_C2
-from OCP.GeomAPI import GeomAPI_PointsToBSpline
-from OCP.gp import gp_Pnt
 from scipy.interpolate import BSpline, _fitpack, splprep
 from scipy.spatial import cKDTree
 
@@ -68,6 +64,10 @@ def fitpack(points, closed, smoothing):
 
 def opencascade(points, closed, tolerance):
     """Number of control points and the curve; a closed one has no more than a common point at its ends."""
+    from OCP.collections import Array1_gp_Pnt
+    from OCP.GeomAbs import GeomAbs_C2
+    from OCP.GeomAPI import GeomAPI_PointsToBSpline
+    from OCP.gp import gp_Pnt
     rows = np.vstack([points, points[:1]]) if closed else points
     array = Array1_gp_Pnt(1, len(rows))
     for i, row in enumerate(rows):
@@ -158,7 +158,8 @@ def main():
         data = json.load(file)
     truths = {name: Truth(entry) for name, entry in data["truth"].items()}
     compare_times(data, truths)
-    compare_counts(data, truths)
+    if sys.argv[2:] != ["times"]:
+        compare_counts(data, truths)
 
 
 if __name__ == "__main__":
