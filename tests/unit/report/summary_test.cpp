@@ -4,16 +4,6 @@
 using namespace meshcontour;
 using Catch::Contains;
 
-namespace {
-
-void open_loop(PatchBoundary& patch, std::size_t number) {
-  std::vector<BoundaryLoop> loops(patch.loops.begin(), patch.loops.end());
-  loops[number].closed = false;
-  patch.loops = std::move(loops);
-}
-
-}  // namespace
-
 TEST_CASE("counts_of: boundary points once a shell, edges a patch", "[report]") {
   Sample s = sample();
   PatchBoundary& patch = s.boundaries[0].patches[1];

@@ -49,7 +49,7 @@ TEST_CASE("obj: one closed polyline a loop, through the loop's vertices", "[writ
 
 TEST_CASE("obj: an open chain stays open", "[write][obj]") {
   Sample s = sample();
-  s.boundaries[0].patches[0].loops[0].closed = false;
+  open_loop(s.boundaries[0].patches[0], 0);
   CHECK(read_polylines(written(OutputFormat::Obj, s)).lines.at("shell_id7_patch_1_loop_1").size() == 4);
 }
 

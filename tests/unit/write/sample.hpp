@@ -7,6 +7,7 @@
 
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "meshcontour/write.hpp"
@@ -104,6 +105,12 @@ inline Sample sample() {
   }
   s.contours.push_back(polygon);
   return s;
+}
+
+inline void open_loop(PatchBoundary& patch, std::size_t number) {
+  std::vector<BoundaryLoop> loops(patch.loops.begin(), patch.loops.end());
+  loops[number].closed = false;
+  patch.loops = std::move(loops);
 }
 
 inline std::string written(OutputFormat format, const Sample& sample, const WriteOptions& options = {},

@@ -73,7 +73,8 @@ TEST_CASE("step: every reference names an earlier entity, every curve has its ki
 
 TEST_CASE("step: an open chain ends discontinuous", "[write][step]") {
   Sample s = sample();
-  s.contours[0].closed = s.boundaries[0].patches[0].loops[0].closed = false;
+  s.contours[0].closed = false;
+  open_loop(s.boundaries[0].patches[0], 0);
   const std::string text = written(OutputFormat::Step, s);
   CHECK(count(text, "COMPOSITE_CURVE_SEGMENT(.CONTINUOUS.") == 3);
   CHECK(count(text, "COMPOSITE_CURVE_SEGMENT(.DISCONTINUOUS.") == 1);

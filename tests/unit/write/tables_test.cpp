@@ -39,7 +39,7 @@ Curve curve_from(const json& s) {
 TEST_CASE("loops.csv: a row a vertex, numbers that read back exactly", "[write][csv]") {
   Sample s = sample();
   s.model.shells[0].points[1] = {0.1, 1e-300, -123456789.123456789};
-  s.boundaries[0].patches[0].loops[0].closed = false;
+  open_loop(s.boundaries[0].patches[0], 0);
   const auto rows = lines_of(written(OutputFormat::Csv, s));
   REQUIRE(rows.size() == 1 + 4 + 3 + 3);
   CHECK(rows[0] == "shell,patch,loop,closed,index,vertex,x,y,z");
