@@ -17,8 +17,9 @@ BoundaryEdge undirected(Index a, Index b) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-std::vector<BoundaryEdge> undirected(std::vector<BoundaryEdge> edges) {
-  for (BoundaryEdge& e : edges) e = undirected(e.from, e.to);
+std::vector<BoundaryEdge> undirected(std::span<const BoundaryEdge> directed) {
+  std::vector<BoundaryEdge> edges;
+  for (const auto& [from, to] : directed) edges.push_back(undirected(from, to));
   std::ranges::sort(edges);
   return edges;
 }
@@ -31,19 +32,19 @@ std::vector<BoundaryEdge> edges_along(const BoundaryLoop& loop) {
   return edges;
 }
 
-std::vector<BoundaryEdge> edges_along(const std::vector<BoundaryLoop>& loops) {
+std::vector<BoundaryEdge> edges_along(std::span<const BoundaryLoop> loops) {
   std::vector<BoundaryEdge> edges;
   for (const BoundaryLoop& loop : loops) std::ranges::copy(edges_along(loop), std::back_inserter(edges));
   return edges;
 }
 
-std::vector<Index> ends_of(const std::vector<BoundaryEdge>& edges) {
+std::vector<Index> ends_of(std::span<const BoundaryEdge> edges) {
   std::set<Index> ends;
   for (const auto& [from, to] : edges) ends.insert({from, to});
   return {ends.begin(), ends.end()};
 }
 
-std::size_t open_chains(const std::vector<BoundaryLoop>& loops) {
+std::size_t open_chains(std::span<const BoundaryLoop> loops) {
   return static_cast<std::size_t>(std::ranges::count(loops, false, &BoundaryLoop::closed));
 }
 
