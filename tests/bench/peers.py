@@ -34,7 +34,7 @@ def output(what, *command):
         skip(what, f"status {result.returncode}: {result.stdout.strip()[-200:]}")
         return []
     return [[cell.strip() for cell in line.strip("|").split("|")] if line.startswith("|") else line.split()
-            for line in result.stdout.splitlines()]
+            for line in result.stdout.splitlines() if line.strip()]
 
 
 def environment(folder):
@@ -60,14 +60,14 @@ def boundary_target(peer, size):
         return None if size == BANDS or "1e4" in size else 0.125
     if peer.startswith("copy of the indices"):
         return 1.7 if "1e6" in size or "1e7" in size else None
-    return None if peer == "halfedge" else 0.25 if size == BANDS else 0.1
+    return 0.25 if size == BANDS else 0.1
 
 
 def boundaries(programs, python, large):
     sizes = [*GRIDS, BANDS, *(LARGE if large else [])]
     for size in sizes:
         for cells in output(f"boundaries, {size}", programs / "bench_boundary", 5, size):
-            if cells[0] == size and cells[1] != "sorted":
+            if cells[0] == size and cells[1] not in ("sorted", "halfedge"):
                 row(cells[1], "boundary and loops", size, 1 / float(cells[3]), boundary_target(cells[1], size))
     counts = ["1e4", "1e6", *(["1e7"] if large else [])]
     for count in counts:
@@ -113,8 +113,8 @@ def pictures(programs, python, model):
 
 def subdivision(programs, folder):
     mesh = folder / "torus.ply"
-    subprocess.run([programs.parents[1] / "meshcontour", "-q", ROOT / "data/samples/swp/torus.swp", "--save-mesh", mesh],
-                   check=True)
+    source = ROOT / "data/samples/swp/torus.swp"
+    subprocess.run([programs.parents[1] / "meshcontour", "-q", source, "--save-mesh", mesh], check=True)
     for cells in output("subdivision", programs / "bench_openmesh_butterfly", 3, mesh):
         if len(cells) == 7 and cells[1].isdigit():
             row("OpenMesh modified butterfly", "subdivision", f"{cells[1]} triangles", cells[3])
