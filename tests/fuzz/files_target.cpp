@@ -45,6 +45,7 @@ ReadOptions options_of(std::uint8_t choice) {
   options.strict = (choice & 1) != 0;
   options.max_triangles = (choice & 2) != 0 ? 3 : 20'000;
   options.max_instances = (choice & 2) != 0 ? 3 : 1'000;
+  options.sweep.max_frames = 1'000;
   if ((choice & 4) != 0) options.weld = 0.01;
   options.net.normalise = (choice & 8) != 0;
   options.net.strict = (choice & 16) != 0;

@@ -19,6 +19,7 @@ ReadOptions limits() {
   ReadOptions options;
   options.max_triangles = 20'000;
   options.max_instances = 1'000;
+  options.sweep.max_frames = 1'000;
   options.threads = 1;
   return options;
 }
