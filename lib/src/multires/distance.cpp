@@ -180,8 +180,7 @@ double vertex_distance(const Shell& from, std::size_t patch, const TriangleTree&
   std::vector<Index> vertices;
   for (const Triangle& t : from.patch_triangles(patch)) vertices.insert(vertices.end(), t.begin(), t.end());
   std::ranges::sort(vertices);
-  const auto repeated = std::ranges::unique(vertices);
-  vertices.erase(repeated.begin(), repeated.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return largest(vertices.size(), threads,
                  [&](std::size_t begin, std::size_t end) {
                    double squared = 0;
