@@ -228,7 +228,7 @@ bool is_long_chord(const Path& path, const Run& run, std::size_t chord, const Re
   if (options.evidence && options.evidence->known() && own > 5 * options.evidence->sagitta) return true;
   if (own > 2 * options.coarsest) return true;
   double longest = 0, deepest = 0;
-  for (const std::size_t reach : {1, 2}) {
+  for (std::size_t reach = 1; reach <= 2; ++reach) {
     if (chord >= run.begin + reach) {
       deepest = std::max(deepest, implied_sagitta(path, run, chord - reach));
       if (reach == 1) longest = std::max(longest, path.length[chord - 1]);

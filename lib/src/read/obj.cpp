@@ -25,11 +25,9 @@ class ObjReader {
 
   Model read() && {
     while (!in_.at_end()) read_statement();
-    for (PolygonMesh::Group& group : mesh_.groups) {
-      if (const auto color = materials_.find(material_of_[&group - mesh_.groups.data()]);
-          color != materials_.end()) {
-        group.color = color->second;
-      }
+    for (std::size_t g = 0; g < mesh_.groups.size(); ++g) {
+      const auto color = materials_.find(material_of_[g]);
+      if (color != materials_.end()) mesh_.groups[g].color = color->second;
     }
     return std::move(mesh_).finish();
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 
 #include "render/gl_framebuffer.hpp"
 #include "render/gl_readback.hpp"
@@ -88,9 +89,10 @@ void set_state(const Scene& scene) {
   glLightfv(GL_LIGHT0, GL_SPECULAR, none.data());
   glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, GL_TRUE);
   glColorMaterial(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE);
-  for (const GLenum what :
-       {GL_COLOR_MATERIAL, GL_LIGHTING, GL_LIGHT0, GL_NORMALIZE, GL_DEPTH_TEST, GL_POLYGON_OFFSET_FILL})
+  for (const GLenum what : std::initializer_list<GLenum>{GL_COLOR_MATERIAL, GL_LIGHTING, GL_LIGHT0, GL_NORMALIZE,
+                                                         GL_DEPTH_TEST, GL_POLYGON_OFFSET_FILL}) {
     glEnable(what);
+  }
   glDepthFunc(GL_LEQUAL);
 }
 
