@@ -18,12 +18,12 @@ import time
 
 FAILED = {65, 66, 71}  # exit codes of a file that is refused
 # A million placed shells: legal, and drawn; not written as geometry, which would be gigabytes.
-LARGE = {"d09_million_instances.xml": (20, 1000)}  # processor seconds and megabytes
+LARGE = {"d09_million_instances.xml": (100, 1000)}  # processor seconds, with sanitizers, and megabytes
 OUTPUTS = ["out.png", "out.csv", "out.json"]
 MORE_OUTPUTS = ["out.csv", "out.json", "out.obj", "out.step", "out.dxf", "out.svg", "out.ply"]
 NOT_FINITE = re.compile(rb"(?<![\w./-])[-+]?(nan|inf|infinity)(?![\w./-])", re.IGNORECASE)
 TEXTS = {".csv", ".json", ".obj", ".step", ".dxf", ".svg"}
-HANG = 120  # seconds
+HANG = 300  # seconds
 
 
 def expectations(text):
