@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 
-TABLES = [option for name in ("a.csv", "a.obj", "a.json", "a.step", "a.dxf", "a.svg", "a.glb") for option in ("-o", name)]
+TABLES = [option for kind in ("csv", "obj", "json", "step", "dxf", "svg", "glb") for option in ("-o", "a." + kind)]
 GROUPS = [TABLES + group for group in [
     ["--fit", "primitives", "--strict"],
     ["--fit", "approximate", "--extractor", "halfedge", "--edges", "unique", "--csv-of", "curves", "--obj", "curves"],
@@ -23,7 +23,8 @@ GROUPS = [TABLES + group for group in [
     ["--patches-from", "angle", "--repair", "--weld", "1e-6", "--report", "r.json"],
     ["--patches-from", "none", "--obj", "tree", "-o", "a.wrl", "--boundary-rule", "trig", "--subdivide", "1"],
 ]]
-PICTURES = ["-o", "{view}.png", "-o", "{view}.svg", "--size", "160x120", "--view", "iso,top", "--report", "html:r.html", "--layers",
+PICTURES = ["-o", "{view}.png", "-o", "{view}.svg", "--size", "160x120", "--view", "iso,top",
+            "--report", "html:r.html", "--layers",
             "mesh,edges,curves,wireframe,points,control,frames,detail,annotations,tree,axes,scale"]
 REPORTS = {"r.json", "r.html"}  # hold times
 

@@ -83,9 +83,9 @@ struct Image {
 ///
 /// @param boundaries, contours  may be empty when no layer needs them.
 /// @throws Error  Usage if the size or a width is out of range, or the layer Scale is asked for in perspective;
-///                NoRenderer if no context can be made or its self-test fails; OutOfMemory if the picture needs more memory than there is, or the rasterizer runs
-///                out of it; BadData if the model is too large for numbers (beyond 1e150), or if nothing
-///                would show.
+///                NoRenderer if no context can be made or its self-test fails; OutOfMemory if the picture needs more
+///                memory than there is, or the rasterizer runs out of it; BadData if the model is too large for
+///                numbers (beyond 1e150), or if nothing would show.
 Image render(const Model& model, std::span<const ShellBoundary> boundaries, std::span<const Contour> contours,
              const RenderOptions& options);
 

@@ -7,11 +7,10 @@
 #include <numeric>
 
 #include "meshcontour/error.hpp"
+#include "multires/level.hpp"
 
 namespace meshcontour::detail {
 namespace {
-
-constexpr Index kNone = 0xffffffff;
 
 // Halfedges by the smaller end of their edge. Those of vertex v stand at first[v] .. first[v + 1] - 1, as the
 // larger end above and the halfedge below in one number.
@@ -48,7 +47,7 @@ void join(std::span<const Triangle> triangles, std::span<const std::uint64_t> ke
   const auto start = [&](Index h) { return triangles[h / 3][h % 3]; };
   const auto h = static_cast<Index>(keys[0]), twin = static_cast<Index>(keys[1]);
   const auto high = static_cast<Index>(keys[0] >> 32);
-  const Index end = start(h) == high ? start(h % 3 == 2 ? h - 2 : h + 1) : high;
+  const Index end = start(h) == high ? start(MeshLevel::next(h)) : high;
   if (keys.size() > 2) {
     refuse_as_manifold(fmt::format("edge {}-{} has {} triangles", start(h), end, keys.size()));
   }
@@ -66,7 +65,7 @@ void refuse_as_manifold(const std::string& what) {
 }
 
 std::vector<Index> find_twins(std::span<const Triangle> triangles, Index vertex_count) {
-  std::vector<Index> twins(3 * triangles.size(), kNone);
+  std::vector<Index> twins(3 * triangles.size(), MeshLevel::kNone);
   HalfedgesByVertex halfedges = halfedges_by_vertex(triangles, vertex_count);
   for (Index v = 0; v < vertex_count; ++v) {
     const std::span<std::uint64_t> keys(halfedges.keys.data() + halfedges.first[v],
