@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fit/taylor_piece.hpp"
+#include "model/segment_distance.hpp"
 
 namespace meshcontour::detail {
 namespace {
@@ -149,13 +150,6 @@ std::vector<double> quick_bounds(const BSplineCurve& curve, const Chords& chords
 }
 
 }  // namespace
-
-double segment_distance(const Point& p, const Point& start, const Point& end) {
-  const Vector along = end - start, to_point = p - start;
-  const double squared = along.squaredNorm();
-  const double share = squared > 0 ? std::clamp(to_point.dot(along) / squared, 0.0, 1.0) : 0;
-  return (to_point - share * along).norm();
-}
 
 CubicBezier bezier_piece(const BSplineCurve& curve, std::size_t span, double begin, double end) {
   const double* t = curve.knots.data() + span;

@@ -12,9 +12,6 @@ namespace meshcontour::detail {
 /// A cubic polynomial piece by its Bezier points.
 using CubicBezier = std::array<Point, 4>;
 
-/// Distance of a point and a line segment.
-double segment_distance(const Point& p, const Point& start, const Point& end);
-
 /// The piece of a cubic without weights over [begin, end], which must lie in one knot span; by blossoms.
 CubicBezier bezier_piece(const BSplineCurve& curve, std::size_t span, double begin, double end);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/blossom.hpp"
+#include "model/segment_distance.hpp"
 
 namespace meshcontour::detail {
 namespace {
@@ -38,14 +39,6 @@ void add_span(const BSplineCurve& curve, std::size_t span, std::vector<Homogeneo
     control.push_back(
         blossom(curve, span, [&](int argument) { return argument <= curve.degree - k ? begin : end; }));
   }
-}
-
-// The distance of p to the segment from a to b.
-double distance(const Point& p, const Point& a, const Point& b) {
-  const Vector along = b - a;
-  const double squared = along.squaredNorm();
-  const double share = squared > 0 ? std::clamp((p - a).dot(along) / squared, 0.0, 1.0) : 0;
-  return (p - a - share * along).norm();
 }
 
 }  // namespace
@@ -111,7 +104,7 @@ void join_chords(std::vector<Chord>& row, double tolerance) {
       const Chord chord = row[i++];
       row[kept] = chord;
       if (i == before || chord.start == row[i].end) continue;
-      const double error = std::max(chord.error, row[i].error) + distance(chord.end, chord.start, row[i].end);
+      const double error = std::max(chord.error, row[i].error) + segment_distance(chord.end, chord.start, row[i].end);
       if (error <= tolerance) row[kept] = {chord.start, row[i++].end, error};
     }
     row.resize(kept);
