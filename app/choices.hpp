@@ -43,8 +43,13 @@ inline constexpr Choices<View, 8> kViews = {{{"iso", View::Iso},
                                              {"bottom", View::Bottom},
                                              {"report", View::Report}}};
 inline constexpr Choices<UpAxis, 3> kUpAxes = {{{"x", UpAxis::X}, {"y", UpAxis::Y}, {"z", UpAxis::Z}}};
-inline constexpr Choices<ColorBy, 4> kColorings = {
-    {{"file", ColorBy::File}, {"patch", ColorBy::Patch}, {"layer", ColorBy::Layer}, {"type", ColorBy::Type}}};
+inline constexpr Choices<ColorBy, 5> kColorings = {{{"file", ColorBy::File},
+                                                    {"patch", ColorBy::Patch},
+                                                    {"number", ColorBy::Number},
+                                                    {"layer", ColorBy::Layer},
+                                                    {"type", ColorBy::Type}}};
+inline constexpr Choices<Shading, 2> kShadings = {{{"smooth", Shading::Smooth}, {"none", Shading::None}}};
+inline constexpr Choices<int, 3> kSamples = {{{"1", 1}, {"4", 4}, {"16", 16}}};
 inline constexpr Choices<MessageStyle, 2> kMessageStyles = {
     {{"text", MessageStyle::Text}, {"github", MessageStyle::GitHub}}};
 inline constexpr Choices<GlBackend, 3> kBackends = {

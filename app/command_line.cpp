@@ -152,7 +152,11 @@ void add_picture_options(Group group, RenderOptions& render, PictureTexts& texts
   group.add_text("--size", texts.size, "WxH", "Pixels, 1 to 16384 a side; --view report alone has 500x500")
       ->default_str(fmt::format("{}x{}", render.width, render.height));
   group.add_text("--background", texts.background, "COLOUR", "rrggbb, or none")->default_str("ffffff");
-  group.add_choice("--color-by", render.color_by, kColorings, "Colours of the layers");
+  group.add_choice("--color-by", render.color_by, kColorings,
+                   "Colours of the layers; number: of a patch, as rrggbb, without shading, one sample a pixel");
+  group.add_choice("--shading", render.shading, kShadings, "Light on faces");
+  group.add_choice("--samples", render.samples, kSamples,
+                   "Samples a pixel, averaged; with 1 no colours are mixed");
   const auto add_style = [&render](LayerStyle (*parse)(std::string_view)) {
     return [&render, parse](const std::string& text) { render.styles.push_back(parse(text)); };
   };

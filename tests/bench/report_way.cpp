@@ -1,5 +1,6 @@
 // The picture drawn the way of the report that this grew from, beside ours: glBegin and glFlush for each
-// triangle, a GLU renderer and glFlush for each loop; and its curves with one renderer and one flush. Each
+// triangle, a GLU renderer and glFlush for each loop; and its curves with one renderer and one flush. Ours is drawn
+// with 4 samples a pixel, which is its default, and with 1 as the others; ratios are to both. Each
 // way draws in a process of its own, several pictures, of which the first (with what starts up) and the
 // median of the rest are printed. The model is moved and scaled into the report's view; a flush costs what
 // copying the picture does, so there are two sizes.
@@ -155,12 +156,13 @@ class ReportWay {
   std::vector<float> points_, knots_;
 };
 
-RenderOptions options(std::vector<Layer> layers, const Size& size) {
+RenderOptions options(std::vector<Layer> layers, const Size& size, int samples) {
   RenderOptions options;
   options.width = size.width;
   options.height = size.height;
   options.view = View::Report;
   options.layers = std::move(layers);
+  options.samples = samples;
   options.threads = 1;
   return options;
 }
@@ -195,28 +197,38 @@ Times times_of(const std::function<void()>& start, const std::function<void()>& 
   return times;
 }
 
-void print_row(const char* what, const Size& size, const char* name, const Times& times, const Times& own) {
-  fmt::print("| {} | {}x{} | {} | {:.1f} | {:.1f} | {:.2f} |\n", what, size.width, size.height, name,
-             1000 * times.first, 1000 * times.rest, own.rest / times.rest);
+// Ours, with 4 samples a pixel and with one.
+struct Ours {
+  Times four, one;
+};
+
+void print_row(const char* what, const Size& size, const char* name, const Times& times, const Ours& own) {
+  fmt::print("| {} | {}x{} | {} | {:.1f} | {:.1f} | {:.2f} | {:.2f} |\n", what, size.width, size.height, name,
+             1000 * times.first, 1000 * times.rest, own.four.rest / times.rest, own.one.rest / times.rest);
 }
 
 void measure(const Input& input, const Size& size, int rounds) {
-  const auto ours = [&](const std::vector<Layer>& layers) {
-    const auto draw = [&] { render(input.model, input.boundaries, input.contours, options(layers, size)); };
+  const auto times_with = [&](Layer layer, int samples) {
+    const RenderOptions how = options({layer}, size, samples);
+    const auto draw = [&] { render(input.model, input.boundaries, input.contours, how); };
     return times_of([] {}, draw, rounds);
+  };
+  const auto ours = [&](const char* what, Layer layer) {
+    const Ours own{times_with(layer, 4), times_with(layer, 1)};
+    print_row(what, size, "meshcontour", own.four, own);
+    print_row(what, size, "meshcontour, a sample a pixel", own.one, own);
+    return own;
   };
   ReportWay way(input, size);
   const auto theirs = [&](const std::function<void()>& draw) {
     return times_of([&] { way.start(); }, [&] { way.clear(), draw(), way.finish(); }, rounds);
   };
-  const Times curves = ours({Layer::Curves});
-  print_row("curves", size, "meshcontour", curves, curves);
+  const Ours curves = ours("curves", Layer::Curves);
   print_row("curves", size, "one GLU renderer", theirs([&] { way.draw_curves(true); }), curves);
   print_row("curves", size, "a renderer and a flush per loop", theirs([&] { way.draw_curves(false); }),
             curves);
   if (size.width > 500) return;  // a flush per triangle takes minutes
-  const Times mesh = ours({Layer::Mesh});
-  print_row("triangles", size, "meshcontour", mesh, mesh);
+  const Ours mesh = ours("triangles", Layer::Mesh);
   print_row("triangles", size, "a flush per triangle", theirs([&] { way.draw_triangles(); }), mesh);
 }
 
@@ -226,7 +238,8 @@ int main(int argc, char** argv) {
   if (argc < 2) return 64;
   const int rounds = argc > 2 ? std::atoi(argv[2]) : 5;
   const Input input = input_of(argv[1]);
-  fmt::print("| drawn | size | way | first, ms | next, ms | ours / it |\n|---|---|---|---:|---:|---:|\n");
+  fmt::print("| drawn | size | way | first, ms | next, ms | ours / it | with a sample a pixel |\n");
+  fmt::print("|---|---|---|---:|---:|---:|---:|\n");
   for (const Size& size : {Size{500, 500}, Size{1920, 1080}}) measure(input, size, rounds);
   return 0;
 }

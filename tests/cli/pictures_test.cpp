@@ -47,6 +47,39 @@ TEST_CASE("layers: colours and widths of theirs are checked", "[cli][error]") {
   }
 }
 
+TEST_CASE("samples: a label picture comes by two ways, and from a file of options", "[cli]") {
+  const TemporaryFolder folder;
+  const ProgramOptions here{.folder = folder.path().string()};
+  const auto draw = [&](const std::string& name, std::vector<std::string> options) {
+    options.insert(options.end(), {kStud, "-o", name, "--layers", "mesh", "--size", "80x60"});
+    const ProgramResult result = run_program(options, here);
+    INFO(result.errors);
+    REQUIRE(result.code == 0);
+    return file_text(folder / name);
+  };
+  const std::string numbers = draw("numbers.png", {"--color-by", "number"});
+  CHECK(draw("plain.png", {"--color-by", "number", "--samples", "1", "--shading", "none"}) == numbers);
+  const std::vector<std::string> palette = {"--color-by", "patch", "--samples", "1", "--shading", "none"};
+  const std::string labels = draw("labels.png", palette);
+  CHECK(labels != numbers);
+  CHECK(labels != draw("shaded.png", {"--color-by", "patch", "--samples", "1"}));
+  CHECK(labels != draw("mixed.png", {"--color-by", "patch", "--shading", "none"}));
+  std::vector<std::string> printing = palette;
+  printing.push_back("--print-config");
+  write_file(folder / "options.toml", run_program(printing).output);
+  CHECK(draw("configured.png", {"--config", "options.toml"}) == labels);
+}
+
+TEST_CASE("samples: other words are refused with those that are known", "[cli][error]") {
+  for (const std::string value : {"0", "2", "04", "-1", "4x", ""}) {
+    const ProgramResult result = run_program({kStud, "--samples", value});
+    INFO(value);
+    CHECK(result.code == 64);
+    CHECK_THAT(result.errors, Contains("--samples") && Contains("1, 4, 16"));
+  }
+  CHECK(run_program({kStud, "--shading", "flat"}).code == 64);
+}
+
 TEST_CASE("units: results are in the unit asked for", "[cli]") {
   const auto loops = [](std::vector<std::string> options) {
     options.insert(options.begin(), {kAssembly, "-o", "-", "--format", "csv"});

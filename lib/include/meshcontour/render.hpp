@@ -52,8 +52,15 @@ enum class UpAxis { X, Y, Z };
 enum class ColorBy {
   File,   ///< the colours of the file, of points where it has them; edges and curves in one colour a layer
   Patch,  ///< one colour a patch, from a palette that repeats after 21
+  Number, ///< one colour a patch, its number: see patch_number_color; never mixed, never shaded
   Layer,  ///< one colour a layer
   Type,   ///< one colour a kind of segment: line, arc, circle, ellipse, spline; the rest grey
+};
+
+/// What light does to faces; lines and points are drawn in their own colours.
+enum class Shading {
+  Smooth,  ///< light from over the viewer's left shoulder
+  None,    ///< none: faces are drawn in their own colours, too, those of ColorBy::Patch in patch_color
 };
 
 enum class GlBackend { Automatic, OSMesa, Egl };
@@ -65,6 +72,8 @@ struct RenderOptions {
   UpAxis up = UpAxis::Z;  ///< of no meaning to View::Report
   std::optional<Rgba> background = Rgba{255, 255, 255, 255};  ///< none: transparent
   ColorBy color_by = ColorBy::File;
+  Shading shading = Shading::Smooth;
+  int samples = 4;  ///< of a pixel, averaged: 1, 4 or 16; with 1 every pixel has the colour of one thing
   std::vector<LayerStyle> styles;  ///< later ones win
   GlBackend backend = GlBackend::Automatic;  ///< Automatic: OSMesa, or EGL where that is missing
   unsigned threads = 0;  ///< 0: one per processor; for the rasterizer the process's first call rules
@@ -78,11 +87,11 @@ struct Image {
 
 /// Draws a model off screen with a software rasterizer, no display needed. Loads the rasterizer on first use.
 ///
-/// Every picture is drawn at twice its size and averaged. Colours are opaque: the alpha of patches is not
-/// used.
+/// Colours are opaque: the alpha of patches is not used. With one sample a pixel and no shading a picture has no
+/// other colours than those of its layers and the background.
 ///
 /// @param boundaries, contours  may be empty when no layer needs them.
-/// @throws Error  Usage if the size or a width is out of range, or the layer Scale is asked for in perspective;
+/// @throws Error  Usage if the size, a width or the samples are out of range, or the layer Scale is asked for in perspective;
 ///                NoRenderer if no context can be made or its self-test fails; OutOfMemory if the picture needs more
 ///                memory than there is, or the rasterizer runs out of it; BadData if the model is too large for
 ///                numbers (beyond 1e150), or if nothing would show.
@@ -97,6 +106,10 @@ Eigen::Matrix3d view_axes(View view, UpAxis up = UpAxis::Z);
 
 /// The palette of ColorBy::Patch; any index.
 Rgba patch_color(std::size_t patch);
+
+/// The colour of ColorBy::Number for a patch, counted from 0 over all shells: its number, from 1 to 2^24 - 1 and then
+/// again, is 65536 red + 256 green + blue.
+Rgba patch_number_color(std::size_t patch);
 
 /// The palette of ColorBy::Type.
 Rgba type_color(const Curve& curve);

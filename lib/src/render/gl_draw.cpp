@@ -11,7 +11,9 @@
 namespace meshcontour::detail {
 namespace {
 
-constexpr int kLargestFramebuffer = 16384;  // of llvmpipe; larger viewports are cut without an error
+// Of llvmpipe: larger viewports and wider lines are cut without an error.
+constexpr int kLargestFramebuffer = 16384;
+constexpr float kWidestLine = 255;
 
 // A part of the picture, in samples: what is kept of it, and the margin around it into which wide lines
 // reach.
@@ -62,7 +64,7 @@ void reserve_chords(Scene& scene) {
 
 // Clip coordinates of the whole picture to those of a tile.
 Eigen::Matrix4d tile_projection(const Scene& scene, const Tile& tile) {
-  const double width = 2.0 * scene.width, height = 2.0 * scene.height;
+  const double across = scene.samples_across, width = across * scene.width, height = across * scene.height;
   Eigen::Matrix4d to_tile = Eigen::Matrix4d::Identity();
   to_tile(0, 0) = width / tile.full_width();
   to_tile(1, 1) = height / tile.full_height();
@@ -122,32 +124,33 @@ void draw_range(const Range& range, const std::vector<Placement>& placements, do
 void draw_batch(const Scene& scene, const Batch& batch, const Range& chords) {
   const auto& placements = scene.frames[batch.frame];
   const Range range{batch.first, batch.count};
-  set_light(batch.kind == Batch::Kind::Triangles);
+  const auto size = std::min(static_cast<float>(scene.samples_across) * batch.size, kWidestLine);
+  set_light(scene.lit && batch.kind == Batch::Kind::Triangles);
   switch (batch.kind) {
     case Batch::Kind::Triangles:
       draw_range(range, placements, batch.bias, GL_TRIANGLES);
       break;
     case Batch::Kind::Lines:
-      glLineWidth(2 * batch.size);
+      glLineWidth(size);
       draw_range(range, placements, batch.bias, GL_LINES);
       draw_range(chords, placements, batch.bias, GL_LINES);
       break;
     case Batch::Kind::Points:
       // Square: after GL_POINT_SMOOTH llvmpipe forgets the polygon offset.
-      glPointSize(2 * batch.size);
+      glPointSize(size);
       draw_range(range, placements, batch.bias, GL_POINTS);
       break;
   }
 }
 
-// Half the widest line: a line as wide as that lies in front of the faces that meet in it, however steep they
-// are.
-float widest(const Scene& scene) {
+// Half the widest line, in samples: a line as wide as that lies in front of the faces that meet in it, however steep
+// they are.
+float widest_half(const Scene& scene) {
   float size = 0;
   for (const Batch& batch : scene.batches) {
     if (batch.kind != Batch::Kind::Triangles) size = std::max(size, batch.size);
   }
-  return size;
+  return static_cast<float>(scene.samples_across) * size / 2;
 }
 
 void draw_batches(const Scene& scene, std::size_t first, std::size_t end, const std::vector<Range>& chords) {
@@ -160,7 +163,7 @@ void draw_tile(const Scene& scene, const Tile& tile, const std::vector<Range>& c
   glViewport(0, 0, tile.full_width(), tile.full_height());
   glMatrixMode(GL_PROJECTION);
   glLoadMatrixd(tile_projection(scene, tile).data());
-  glPolygonOffset(1 + widest(scene), 1);
+  glPolygonOffset(1 + widest_half(scene), 1);
   const auto& color = scene.background;
   glClearColor(static_cast<GLfloat>(color[0]), static_cast<GLfloat>(color[1]), static_cast<GLfloat>(color[2]),
                static_cast<GLfloat>(color[3]));
@@ -210,19 +213,20 @@ bool draw_scene(Scene& scene, int largest_tile, NurbsTessellator& tessellator, I
   image.height = scene.height;
   image.rgba.assign(4 * static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height), 0);
 
-  const int whole = std::max(2 * scene.width, 2 * scene.height);
+  const int across = scene.samples_across, whole = across * std::max(scene.width, scene.height);
   const int limit = std::min(largest_tile, kLargestFramebuffer);
-  const int margin = whole <= limit ? 0 : 2 * static_cast<int>(std::ceil(widest(scene))) + 2;
+  const int margin = whole <= limit ? 0 : 2 * static_cast<int>(std::ceil(widest_half(scene))) + 2;
   const int side = std::min(whole, limit) - 2 * margin;
-  const int width = std::min(side - side % 2, 2 * scene.width);
-  const int height = std::min(side - side % 2, 2 * scene.height);
+  const int width = std::min(side - side % across, across * scene.width);
+  const int height = std::min(side - side % across, across * scene.height);
   bind_framebuffer(width + 2 * margin, height + 2 * margin);
   set_state(scene);
   bool something = false;
-  for (int bottom = 0; bottom < 2 * scene.height; bottom += height) {
-    for (int left = 0; left < 2 * scene.width; left += width) {
+  for (int bottom = 0; bottom < across * scene.height; bottom += height) {
+    for (int left = 0; left < across * scene.width; left += width) {
       draw_tile(scene, {left, bottom, width, height, margin}, chords);
-      const Readback part{left / 2, bottom / 2, width / 2, height / 2, margin, scene.background};
+      const Readback part{left / across, bottom / across, width / across, height / across, margin, across,
+                          scene.background};
       something = average_into(image, part) || something;
       if (draw_legend(scene, chords)) average_into(image, part);
     }

@@ -22,7 +22,7 @@ struct GlFailure : std::runtime_error {
 /// @throws GlFailure
 void test_context();
 
-/// Draws at twice the size, in tiles where that is larger than `largest_tile`, and averages.
+/// Draws all samples, in tiles where they are more than `largest_tile` in a row, and averages.
 ///
 /// @return false if every sample has the background's colour.
 /// @throws GlOutOfMemory, GlFailure, NurbsFailure

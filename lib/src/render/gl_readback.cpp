@@ -9,14 +9,30 @@
 namespace meshcontour::detail {
 namespace {
 
-// Two rows of samples to one row of pixels. Colours are times alpha until here.
-void average_row(const std::uint8_t* lower, const std::uint8_t* upper, std::size_t pixels,
-                 std::uint8_t* out) {
+// Rows of samples to one row of pixels. Colours are times alpha until here.
+template <std::size_t kAcross>
+void average_row(const std::uint8_t* samples, std::size_t pixels, std::uint8_t* out) {
+  constexpr unsigned kSamples = kAcross * kAcross;
   for (std::size_t i = 0; i < pixels; ++i) {
     for (std::size_t c = 0; c < 4; ++c) {
-      const std::size_t a = 8 * i + c, b = a + 4;
-      out[4 * i + c] = static_cast<std::uint8_t>((lower[a] + lower[b] + upper[a] + upper[b] + 2) / 4);
+      unsigned sum = kSamples / 2;
+      for (std::size_t row = 0; row < kAcross; ++row) {
+        const std::uint8_t* sample = samples + 4 * kAcross * (row * pixels + i) + c;
+        for (std::size_t column = 0; column < kAcross; ++column) sum += sample[4 * column];
+      }
+      out[4 * i + c] = static_cast<std::uint8_t>(sum / kSamples);
     }
+  }
+}
+
+void average_row(int across, const std::uint8_t* samples, std::size_t pixels, std::uint8_t* out) {
+  switch (across) {
+    case 1:
+      return average_row<1>(samples, pixels, out);
+    case 2:
+      return average_row<2>(samples, pixels, out);
+    default:
+      return average_row<4>(samples, pixels, out);
   }
 }
 
@@ -46,24 +62,23 @@ bool differs(const std::vector<std::uint8_t>& samples, std::size_t size,
 bool average_into(Image& image, const Readback& part) {
   const int columns = std::min(part.width, image.width - part.left);
   const int rows = std::min(part.height, image.height - part.bottom);
-  constexpr int kBand = 16;  // pixel rows at a time: the samples stay in the cache
-  const auto pixels = static_cast<std::size_t>(columns);
-  const std::size_t sample_row = 8 * pixels;
-  std::vector<std::uint8_t> samples(sample_row * 2 * kBand);
+  constexpr int kBand = 32;  // rows of samples at a time: they stay in the cache
+  const auto pixels = static_cast<std::size_t>(columns), across = static_cast<std::size_t>(part.across);
+  const std::size_t pixel_row = 4 * pixels * across * across;  // samples' bytes
+  const int band = kBand / part.across;
+  std::vector<std::uint8_t> samples(pixel_row * static_cast<std::size_t>(band));
   bool something = false;
-  for (int first = 0; first < rows; first += kBand) {
-    const int count = std::min(kBand, rows - first);
-    glReadPixels(part.margin, part.margin + 2 * first, 2 * columns, 2 * count, GL_RGBA, GL_UNSIGNED_BYTE,
-                 samples.data());
-    something =
-        something || differs(samples, 2 * static_cast<std::size_t>(count) * sample_row, part.background);
+  for (int first = 0; first < rows; first += band) {
+    const int count = std::min(band, rows - first);
+    glReadPixels(part.margin, part.margin + part.across * first, part.across * columns, part.across * count,
+                 GL_RGBA, GL_UNSIGNED_BYTE, samples.data());
+    something = something || differs(samples, static_cast<std::size_t>(count) * pixel_row, part.background);
     for (int row = 0; row < count; ++row) {
       const int from_top = image.height - 1 - (part.bottom + first + row);
       std::uint8_t* out = image.rgba.data() +
                           4 * (static_cast<std::size_t>(from_top) * static_cast<std::size_t>(image.width) +
                                static_cast<std::size_t>(part.left));
-      const std::uint8_t* lower = samples.data() + 2 * static_cast<std::size_t>(row) * sample_row;
-      average_row(lower, lower + sample_row, pixels, out);
+      average_row(part.across, samples.data() + static_cast<std::size_t>(row) * pixel_row, pixels, out);
       divide_by_alpha(out, pixels);
     }
   }

@@ -7,13 +7,13 @@
 namespace meshcontour::detail {
 
 /// Where the pixels of the bound framebuffer belong in the picture: counted from the picture's lower left
-/// corner, in pixels; `margin` samples of the framebuffer around them are not used.
+/// corner, in pixels of `across` x `across` samples; `margin` samples of the framebuffer around them are not used.
 struct Readback {
-  int left, bottom, width, height, margin;
+  int left, bottom, width, height, margin, across;
   std::array<double, 4> background;  ///< colour times alpha
 };
 
-/// Averages 2 x 2 samples of the bound framebuffer to a pixel each, and turns colour times alpha to straight
+/// Averages the samples of the bound framebuffer to pixels, and turns colour times alpha to straight
 /// alpha. Pixels beyond the picture's right and upper end are left out.
 ///
 /// @return  whether a sample differs from the background.

@@ -161,15 +161,15 @@ class ContourBatches {
 
 // Curves that two patches share are drawn once, unless each patch has a colour of its own.
 void add_curves(const Drawing& drawing, Scene& scene) {
-  const bool by_patch = drawing.options.color_by == ColorBy::Patch;
-  const auto repeated = by_patch ? std::vector<std::vector<bool>>() : repeated_segments(drawing.contours);
+  const bool each_patch = by_patch(drawing);
+  const auto repeated = each_patch ? std::vector<std::vector<bool>>() : repeated_segments(drawing.contours);
   ContourBatches batches(drawing);
   for (std::size_t c = 0; c < drawing.contours.size(); ++c) {
     const Contour& contour = drawing.contours[c];
     if (!placed(drawing, contour.shell)) continue;
     CurveBatch& batch = batches.of(contour);
     for (std::size_t i = 0; i < contour.segments.size(); ++i) {
-      if (by_patch) {
+      if (each_patch) {
         batch.add(contour.segments[i].curve, patch_line_color(drawing, contour.shell, contour.patch));
       } else if (!repeated[c][i]) {
         batch.add(contour.segments[i].curve, curve_color(drawing, contour.segments[i].curve));

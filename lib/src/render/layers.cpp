@@ -14,9 +14,13 @@ constexpr std::size_t kGrain = 8192;
 constexpr Rgba kWhite{255, 255, 255, 255}, kBlack{0, 0, 0, 255};
 
 Rgba face_color(const Drawing& drawing, std::size_t shell, std::size_t patch) {
+  const std::size_t number = drawing.first_patch[shell] + patch;
   switch (drawing.options.color_by) {
+    case ColorBy::Number:
+      return patch_number_color(number);
     case ColorBy::Patch:
-      return mixed(patch_color(drawing.first_patch[shell] + patch), kWhite, 0.25);
+      if (drawing.options.shading == Shading::None) return patch_color(number);
+      return mixed(patch_color(number), kWhite, 0.25);
     case ColorBy::File:
       if (drawing.options.view != View::Report) {
         Rgba color = drawing.model.shells[shell].patches[patch].color;
@@ -131,7 +135,6 @@ void add_edge_lines(const Shell& shell, const LocalFrame& frame, const std::vect
 
 // Edges that two patches share are drawn once, unless each patch has a colour of its own.
 void add_edges(const Drawing& drawing, Scene& scene) {
-  const bool by_patch = drawing.options.color_by == ColorBy::Patch;
   for (std::size_t s = 0; s < drawing.boundaries.size(); ++s) {
     if (!placed(drawing, s)) continue;
     const Shell& shell = drawing.model.shells[s];
@@ -140,7 +143,7 @@ void add_edges(const Drawing& drawing, Scene& scene) {
     const auto& patches = drawing.boundaries[s].patches;
     for (std::size_t p = 0; p < patches.size(); ++p) {
       for (const BoundaryEdge& edge : patches[p].edges) edges.push_back({edge.from, edge.to});
-      if (by_patch) {
+      if (by_patch(drawing)) {
         add_edge_lines(shell, drawing.frames[s], edges, patch_line_color(drawing, s, p), vertices);
         edges.clear();
       }
@@ -166,9 +169,8 @@ void add_wireframe(const Drawing& drawing, Scene& scene) {
       }
     });
     std::vector<Vertex> vertices;
-    const bool by_patch = drawing.options.color_by == ColorBy::Patch;
-    for (std::size_t p = 0; p < edges.size(); ++p) {
-      const Rgba color = by_patch ? patch_line_color(drawing, s, p) : drawing.palette.wireframe;
+      for (std::size_t p = 0; p < edges.size(); ++p) {
+      const Rgba color = by_patch(drawing) ? patch_line_color(drawing, s, p) : drawing.palette.wireframe;
       add_edge_lines(shell, drawing.frames[s], edges[p], color, vertices);
     }
     append(scene, make_batch(drawing, Batch::Kind::Lines, s, 0.8F), vertices);
@@ -271,8 +273,14 @@ bool is_legend(Layer layer) {
   return layer == Layer::Axes || layer == Layer::Scale;
 }
 
+bool by_patch(const Drawing& drawing) {
+  return drawing.options.color_by == ColorBy::Patch || drawing.options.color_by == ColorBy::Number;
+}
+
 Rgba patch_line_color(const Drawing& drawing, std::size_t shell, std::size_t patch) {
-  return mixed(patch_color(drawing.first_patch[shell] + patch), kBlack, 0.4);
+  const std::size_t number = drawing.first_patch[shell] + patch;
+  return drawing.options.color_by == ColorBy::Number ? patch_number_color(number)
+                                                     : mixed(patch_color(number), kBlack, 0.4);
 }
 
 void add_layer(const Drawing& drawing, Layer layer, Scene& scene) {

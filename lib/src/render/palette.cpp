@@ -39,6 +39,13 @@ Rgba patch_color(std::size_t patch) {
   }
 }
 
+Rgba patch_number_color(std::size_t patch) {
+  constexpr std::size_t kNumbers = (1 << 24) - 1;
+  const std::size_t number = patch % kNumbers + 1;
+  const auto byte = [&](int shift) { return static_cast<std::uint8_t>(number >> shift & 255); };
+  return {byte(16), byte(8), byte(0), 255};
+}
+
 Rgba type_color(const Curve& curve) {
   return std::visit(TypeColor{}, curve);
 }

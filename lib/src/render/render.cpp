@@ -22,6 +22,9 @@ void check(const Model& model, std::span<const ShellBoundary> boundaries, const 
     throw Error(ErrorCode::Usage, fmt::format("a picture of {} x {} pixels: both must be 1 to {}",
                                               options.width, options.height, kLargestSide));
   }
+  if (options.samples != 1 && options.samples != 4 && options.samples != 16) {
+    throw Error(ErrorCode::Usage, fmt::format("{} samples a pixel: 1, 4 or 16", options.samples));
+  }
   for (const LayerStyle& style : options.styles) {
     if (style.width && !(*style.width > 0 && *style.width <= kWidestLine)) {
       throw Error(ErrorCode::Usage, fmt::format("a line of {} pixels: up to {}", *style.width, kWidestLine));

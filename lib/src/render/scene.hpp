@@ -68,6 +68,8 @@ struct Placement {
 
 struct Scene {
   int width = 0, height = 0;           ///< pixels of the picture
+  int samples_across = 2;              ///< a pixel is the mean of that many rows of that many samples
+  bool lit = true;                     ///< faces are shaded by light
   Eigen::Matrix4d projection;          ///< eye to clip coordinates
   std::array<double, 4> background{};  ///< red, green, blue times alpha; alpha; all 0 to 1
   std::vector<std::vector<Placement>>

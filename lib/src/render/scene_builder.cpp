@@ -122,6 +122,11 @@ float line_scale(const RenderOptions& options) {
   return std::max(1.0F, static_cast<float>(std::min(options.width, options.height)) / kReferenceSide);
 }
 
+// Numbers do not mix.
+int samples_across(const RenderOptions& options) {
+  return options.color_by == ColorBy::Number || options.samples == 1 ? 1 : options.samples == 4 ? 2 : 4;
+}
+
 std::array<double, 4> premultiplied(const std::optional<Rgba>& color) {
   if (!color) return {0, 0, 0, 0};
   const double alpha = color->alpha / 255.0;
@@ -181,6 +186,8 @@ Scene build_scene(const Model& model, std::span<const ShellBoundary> boundaries,
   Scene scene;
   scene.width = options.width;
   scene.height = options.height;
+  scene.samples_across = samples_across(options);
+  scene.lit = options.shading != Shading::None && options.color_by != ColorBy::Number;
   scene.projection = drawing.camera.projection;
   scene.background = premultiplied(options.background);
   place_frames(drawing, scene);

@@ -7,7 +7,7 @@ namespace meshcontour::detail {
 namespace {
 
 constexpr std::size_t kMany = 1000;    // placements; fewer cost nothing
-constexpr double kTiny = 0.25;         // samples, of which a pixel has two in a row
+constexpr double kTiny = 0.25;         // samples
 constexpr double kRounding = 1 / 32.;  // samples: the rasterizer's grid is finer
 
 // Where a placed box lies, in samples from the lower left corner of the picture.
@@ -27,7 +27,7 @@ struct Footprint {
 
 class Footprints {
  public:
-  explicit Footprints(const Scene& scene) : projection_(scene.projection), size_(scene.width, scene.height) {}
+  explicit Footprints(const Scene& scene) : projection_(scene.projection), size_(scene.samples_across / 2.0 * Eigen::Vector2d(scene.width, scene.height)) {}
 
   bool possible() const { return projection_.row(3) == Eigen::RowVector4d(0, 0, 0, 1); }
 
