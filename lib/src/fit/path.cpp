@@ -23,7 +23,7 @@ void measure(Path& path) {
   for (std::size_t i = 1; i < n; ++i) {
     path.turn[i] = angle_between(path.points[i] - path.points[i - 1], path.points[i + 1] - path.points[i]);
   }
-  if (!path.closed) return;
+  if (!path.closed || n == 0) return;
   path.turn[0] = angle_between(path.points[n] - path.points[n - 1], path.points[1] - path.points[0]);
   path.turn[n] = path.turn[0];
 }

@@ -159,6 +159,20 @@ TEST_CASE("fit_contours: what cannot be fitted is its polygon, and said so", "[f
   CHECK(diagnostics[1].count == 2);
 }
 
+TEST_CASE("fit_contours: a loop in one place stays there at any tolerance", "[fit][error]") {
+  Loops loops;
+  loops.add(std::vector<Point>(4, Point(1, 2, 3)));
+  FitOptions options;
+  options.method = GENERATE(FitMethod::Primitives, FitMethod::Approximate);
+  options.tolerance = GENERATE(0.0, 1e-3);
+  std::vector<Diagnostic> diagnostics;
+  const auto contours = fit_contours(loops.model, loops.boundaries, options, diagnostics);
+  REQUIRE(contours.size() == 1);
+  CHECK(contours[0].fallback);
+  REQUIRE(contours[0].segments.size() == 1);
+  CHECK(std::get<LineSegment>(contours[0].segments[0].curve).start == Point(1, 2, 3));
+}
+
 TEST_CASE("fit_contours: options out of range are refused", "[fit][error]") {
   const Loops loops;
   std::vector<Diagnostic> diagnostics;
