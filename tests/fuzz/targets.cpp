@@ -28,7 +28,7 @@ Target find_target(std::string_view name) {
 }
 
 void fail(std::string_view message) {
-  std::fprintf(stderr, "%.*s\n", static_cast<int>(message.size()), message.data());
+  std::fprintf(stderr, "fuzz: %.*s\n", static_cast<int>(message.size()), message.data());
   std::abort();
 }
 
