@@ -257,11 +257,4 @@ std::optional<InputFile> InputFolder::open(std::string_view name) const {
        path_.string());
 }
 
-void advise_huge_pages(void* data, std::size_t size) {
-  constexpr std::size_t kHugePage = std::size_t{2} << 20;
-  const auto begin = rounded_up(reinterpret_cast<std::uintptr_t>(data), kHugePage);
-  const auto end = (reinterpret_cast<std::uintptr_t>(data) + size) / kHugePage * kHugePage;
-  if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-}
-
 }  // namespace meshcontour::detail

@@ -120,7 +120,4 @@ class InputFolder {
   std::filesystem::path path_;
 };
 
-/// Asks for large pages for memory that is about to be filled: fewer page faults. Has no other effect.
-void advise_huge_pages(void* data, std::size_t size);
-
 }  // namespace meshcontour::detail

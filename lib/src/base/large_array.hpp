@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/input_file.hpp"
+#include "base/large_pages.hpp"
 
 namespace meshcontour::detail {
 
@@ -18,7 +18,7 @@ namespace meshcontour::detail {
 template <typename Element>
 void reserve_large(std::vector<Element>& elements, std::size_t count) {
   elements.reserve(count);
-  advise_huge_pages(elements.data(), elements.capacity() * sizeof(Element));
+  advise_large_pages(elements.data(), elements.capacity() * sizeof(Element));
 }
 
 /// The same, filled with a value.
@@ -45,7 +45,7 @@ class ZeroedMemory {
     pages_ = data_ = pages;
     std::size_t room = mapped_;
     std::align(kLargePage, size, data_, room);
-    advise_huge_pages(pages_, mapped_);
+    advise_large_pages(pages_, mapped_);
   }
   ZeroedMemory(ZeroedMemory&& other) noexcept { swap(other); }
   ZeroedMemory& operator=(ZeroedMemory&& other) noexcept {
@@ -63,8 +63,6 @@ class ZeroedMemory {
   void* data() const { return data_; }
 
  private:
-  static constexpr std::size_t kLargePage = std::size_t{2} << 20;
-
   void swap(ZeroedMemory& other) {
     std::swap(data_, other.data_);
     std::swap(pages_, other.pages_);

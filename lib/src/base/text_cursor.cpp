@@ -48,45 +48,8 @@ std::optional<double> parse_number(std::string_view word) {
   return word.front() == '-' ? -0.0 : 0.0;
 }
 
-LineEnds count_line_ends(std::string_view part, bool lf_follows) {
-  LineEnds ends;
-  ends.count = static_cast<std::size_t>(std::count(part.begin(), part.end(), '\n'));
-  for (std::size_t i = part.find('\r'); i < part.size(); i = part.find('\r', i + 1)) {
-    const bool before_lf = i + 1 < part.size() ? part[i + 1] == '\n' : lf_follows;
-    if (!before_lf) ++ends.count;
-  }
-  const std::size_t last = part.find_last_of("\n\r");
-  if (last == part.npos) return ends;
-  const bool unfinished = last + 1 == part.size() && part[last] == '\r' && lf_follows;
-  if (!unfinished) ends.last = last + 1;
-  return ends;
-}
-
-void LineCounter::count_to(std::size_t offset) {
-  offset = std::min(offset, text_.size());
-  if (offset < counted_) {
-    counted_ = line_start_ = 0;
-    line_ = 1;
-  }
-  const LineEnds ends =
-      count_line_ends(text_.substr(counted_, offset - counted_), text_.substr(offset).starts_with('\n'));
-  line_ += ends.count;
-  if (ends.last != std::string_view::npos) line_start_ = counted_ + ends.last;
-  counted_ = offset;
-}
-
-std::size_t LineCounter::line(std::size_t offset) {
-  count_to(offset);
-  return line_;
-}
-
-std::size_t LineCounter::column(std::size_t offset) {
-  count_to(offset);
-  return counted_ - line_start_ + 1;
-}
-
 TextCursor::TextCursor(std::string_view text, std::string name, char comment)
-    : text_(text), name_(std::move(name)), comment_(comment), lines_(text) {
+    : text_(text), name_(std::move(name)), comment_(comment), lines_(TextSource(text)) {
   if (text_.starts_with("\xEF\xBB\xBF")) offset_ = 3;
 }
 

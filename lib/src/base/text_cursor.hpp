@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/line_counter.hpp"
 #include "meshcontour/error.hpp"
 #include "meshcontour/types.hpp"
 
@@ -24,30 +25,6 @@ std::optional<T> parse_integer(std::string_view word) {
   if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
   return value;
 }
-
-/// Line ends (LF, CR LF or CR) in a part of a text.
-struct LineEnds {
-  std::size_t count = 0;
-  std::size_t last = std::string_view::npos;  ///< offset behind the last of them; npos if there is none
-};
-
-/// @param lf_follows  the text goes on with an LF: then a CR at the end of the part does not count.
-LineEnds count_line_ends(std::string_view part, bool lf_follows);
-
-/// The line of an offset, from 1. Counts forward from the last answer, so that rising offsets cost one pass
-/// together.
-class LineCounter {
- public:
-  explicit LineCounter(std::string_view text) : text_(text) {}
-  std::size_t line(std::size_t offset);
-  std::size_t column(std::size_t offset);  ///< from 1, in bytes
-
- private:
-  void count_to(std::size_t offset);
-
-  std::string_view text_;
-  std::size_t counted_ = 0, line_ = 1, line_start_ = 0;
-};
 
 /// Reads words and numbers one after the other; every failure names file, line and column.
 ///

@@ -4,8 +4,6 @@
 #include <cstring>
 #include <utility>
 
-#include "base/text_cursor.hpp"
-
 namespace meshcontour::detail {
 namespace {
 
@@ -31,35 +29,6 @@ void TextWindow::show(std::size_t offset, std::size_t length) {
   begin_ = std::min(offset, source_.size());
   text_ = source_.view(begin_, begin_ + size, buffer_);
   short_ = end() < std::min(begin_ + size, source_.size());
-}
-
-std::size_t SourceLines::line(std::size_t offset) {
-  count_to(offset);
-  return line_;
-}
-
-std::size_t SourceLines::column(std::size_t offset) {
-  count_to(offset);
-  return counted_ - line_start_ + 1;
-}
-
-void SourceLines::count_to(std::size_t offset) {
-  offset = std::clamp(offset, start_, std::max(start_, source_.size()));
-  if (offset < counted_) {
-    counted_ = line_start_ = start_;
-    line_ = start_line_;
-  }
-  std::string buffer;
-  while (counted_ < offset) {
-    const std::size_t end = std::min(offset, counted_ + kWindow);
-    const std::string_view seen = source_.view(counted_, end + 1, buffer);
-    const std::string_view part = seen.substr(0, end - counted_);
-    if (part.empty()) return;  // the file has become shorter
-    const LineEnds ends = count_line_ends(part, seen.substr(part.size()).starts_with('\n'));
-    line_ += ends.count;
-    if (ends.last != std::string_view::npos) line_start_ = counted_ + ends.last;
-    counted_ += part.size();
-  }
 }
 
 std::string BufferPool::take() {

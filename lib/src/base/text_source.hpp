@@ -62,24 +62,6 @@ class TextWindow {
   bool short_ = false;  // the file gave less than its size
 };
 
-/// The line of an offset in a source, from 1; lines end with LF, CR LF or CR. Counts forward from the last
-/// answer, so that rising offsets cost one pass together.
-class SourceLines {
- public:
-  /// @param start, line  an offset whose line is known; earlier offsets are not asked for.
-  explicit SourceLines(const TextSource& source, std::size_t start = 0, std::size_t line = 1)
-      : source_(source), start_(start), start_line_(line), counted_(start), line_(line), line_start_(start) {}
-  std::size_t line(std::size_t offset);
-  std::size_t column(std::size_t offset);  ///< from 1, in bytes
-
- private:
-  void count_to(std::size_t offset);
-
-  const TextSource& source_;
-  std::size_t start_, start_line_;
-  std::size_t counted_, line_, line_start_;
-};
-
 /// Buffers for use in parallel; one that is given back is used again.
 class BufferPool {
  public:

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "base/input_file.hpp"
+#include "base/large_pages.hpp"
 #include "meshcontour/shared_array.hpp"
 
 namespace meshcontour::detail {
@@ -39,10 +39,9 @@ class ArrayBlocks {
   class Block {
    public:
     explicit Block(std::size_t bytes) : capacity_(bytes / sizeof(Element)) {
-      constexpr std::size_t kHugePage = std::size_t{2} << 20;
-      data_ = static_cast<Element*>(std::aligned_alloc(bytes < kHugePage ? kFirstBlock : kHugePage, bytes));
+      data_ = static_cast<Element*>(std::aligned_alloc(bytes < kLargePage ? kFirstBlock : kLargePage, bytes));
       if (data_ == nullptr) throw std::bad_alloc();
-      advise_huge_pages(data_, bytes);
+      advise_large_pages(data_, bytes);
     }
     Block(const Block&) = delete;
     Block& operator=(const Block&) = delete;

@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 
+#include "base/line_counter.hpp"
 #include "base/text_cursor.hpp"
 #include "read/net_checks.hpp"
 #include "read/polygon_mesh.hpp"
@@ -188,7 +189,7 @@ class NetReader {
   }
 
   Spot spot_of(std::size_t offset) const {
-    LineCounter lines(bytes_);
+    LineCounter lines{TextSource(bytes_)};
     const std::size_t line = lines.line(offset);
     return {context_.name, line, lines.column(offset), ""};
   }

@@ -9,6 +9,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "base/line_counter.hpp"
 #include "base/text_cursor.hpp"
 
 namespace meshcontour::detail {
@@ -104,7 +105,7 @@ class Scanner {
   std::string_view text_;
   TextCursor cursor_;
   const std::string& name_;
-  LineCounter lines_{text_};
+  LineCounter lines_{TextSource(text_)};
   std::size_t start_ = 0, end_ = 0;  // of what was taken last
 };
 

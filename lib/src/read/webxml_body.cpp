@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "base/text_cursor.hpp"
-#include "base/text_source.hpp"
+#include "base/line_counter.hpp"
 #include "read/xml_digest.hpp"
 #include "read/xml_scanner.hpp"
 #include "read/xml_words.hpp"
@@ -69,7 +69,7 @@ class BodyWalk {
     const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
     if (begin == bytes.npos) return;
     findings_.note("text", [&] {
-      SourceLines lines(source_, 0, body_.line);
+      LineCounter lines(source_, 0, body_.line);
       return std::pair("text between elements is not read",
                        Spot{body_.file, lines.line(offset + begin), 0, body_.element});
     });

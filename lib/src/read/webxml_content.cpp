@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/text_source.hpp"
+#include "base/line_counter.hpp"
 #include "meshcontour/parallel.hpp"
 #include "read/webxml_body.hpp"
 
@@ -158,7 +158,7 @@ class ContentReader {
   // Bodies of one kind that the scan did not take. The first failure in file order is the one reported.
   void parse_rest(BodyKind kind) {
     std::vector<std::size_t> rest;
-    SourceLines lines(source_);
+    LineCounter lines(source_);
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       if (bodies_[b].kind != kind || states_[b].scanned) continue;
       states_[b].line = lines.line(bodies_[b].begin);

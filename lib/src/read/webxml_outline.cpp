@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 
+#include "base/line_counter.hpp"
 #include "read/encoding.hpp"
 
 namespace meshcontour::detail {
@@ -99,7 +100,7 @@ class Outliner {
     const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
     if (begin == bytes.npos) return;
     findings_.note("text", [&] {
-      SourceLines lines(window_.source());
+      LineCounter lines(window_.source());
       return std::pair("text between elements is not read", Spot{file_, lines.line(offset + begin), 0, ""});
     });
   }

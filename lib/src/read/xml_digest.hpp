@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/text_source.hpp"
+#include "base/line_counter.hpp"
 #include "read/xml_scanner.hpp"
 
 namespace meshcontour::detail {
@@ -39,7 +39,7 @@ class XmlDigest {
     std::size_t offset;  // in the original
   };
 
-  SourceLines lines_;
+  LineCounter lines_;
   std::string text_;
   std::size_t line_ = 1;
   std::vector<Section> sections_;

@@ -6,6 +6,8 @@
 #include <array>
 #include <charconv>
 
+#include "base/line_counter.hpp"
+
 namespace meshcontour::detail {
 namespace {
 
@@ -55,7 +57,7 @@ void XmlScanner::look_at(std::size_t offset, std::size_t length) {
 }
 
 void XmlScanner::fail_at(std::size_t offset, const std::string& message) const {
-  SourceLines lines(window_.source());
+  LineCounter lines(window_.source());
   throw Error(ErrorCode::BadData, message, Spot{file_, lines.line(offset), lines.column(offset), ""});
 }
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/input_file.hpp"
+#include "base/large_pages.hpp"
 #include "meshcontour/parallel.hpp"
 #include "sweep/profile.hpp"
 
@@ -93,7 +93,7 @@ template <class Element>
 void grow(std::vector<Element>& elements, std::size_t size) {
   if (size > elements.capacity()) {
     elements.reserve(std::max(size, 2 * elements.capacity()));
-    advise_huge_pages(elements.data(), elements.capacity() * sizeof(Element));
+    advise_large_pages(elements.data(), elements.capacity() * sizeof(Element));
   }
   elements.resize(size);
 }

@@ -97,14 +97,3 @@ TEST_CASE("parse_number: too small is zero, too large is none, however it is wri
   CHECK_FALSE(parse_number("1" + zeros + "e-5"));
   CHECK_FALSE(parse_number("-1" + zeros + ".5"));
 }
-
-TEST_CASE("LineCounter: lines are counted alike for every line end and in any order of questions", "[base]") {
-  const std::string end = GENERATE("\n", "\r", "\r\n");
-  const std::string text = "ab" + end + end + "c";
-  LineCounter lines(text);
-  CHECK(lines.line(text.size() - 1) == 3);
-  CHECK(lines.column(text.size() - 1) == 1);
-  CHECK(lines.line(1) == 1);
-  CHECK(lines.column(1) == 2);
-  CHECK(lines.line(text.size() + 10) == 3);
-}

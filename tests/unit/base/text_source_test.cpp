@@ -91,22 +91,6 @@ TEST_CASE("TextWindow: a file cut meanwhile just ends", "[base]") {
   CHECK(window.reaches_end());
 }
 
-TEST_CASE("SourceLines: counts as a LineCounter does, over the ends of its parts", "[base]") {
-  std::string text = text_of(600'000);
-  text.replace(262'143, 2, "\r\n");
-  text.replace(524'287, 2, "\r\n");
-  const TextSource source(text);
-  SourceLines lines(source);
-  LineCounter expected(text);
-  for (const std::size_t offset :
-       {0u, 9u, 262'143u, 262'144u, 262'145u, 524'288u, 524'289u, 599'999u, 700'000u, 262'144u}) {
-    CHECK(lines.line(offset) == expected.line(offset));
-    CHECK(lines.column(offset) == expected.column(offset));
-  }
-  SourceLines later(source, 262'145, expected.line(262'145));
-  CHECK(later.line(599'999) == expected.line(599'999));
-}
-
 TEST_CASE("BufferPool: a buffer comes back", "[base]") {
   BufferPool pool;
   std::string buffer = pool.take();
