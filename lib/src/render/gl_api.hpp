@@ -13,7 +13,7 @@
 namespace meshcontour::detail {
 
 /// Changes whenever this file, scene.hpp or Image does; a module of another version is refused.
-inline constexpr int kGlApiVersion = 4;
+inline constexpr int kGlApiVersion = 5;
 
 /// The one symbol that a module exports, a `const GlApi* ()` with C linkage.
 inline constexpr const char* kGlApiSymbol = "meshcontour_gl_api";

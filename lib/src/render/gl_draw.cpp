@@ -5,6 +5,7 @@
 #include <cstring>
 #include <initializer_list>
 
+#include "render/drawn_region.hpp"
 #include "render/gl_framebuffer.hpp"
 #include "render/gl_readback.hpp"
 
@@ -23,12 +24,8 @@ struct Tile {
   int full_height() const { return height + 2 * margin; }
 };
 
-struct Range {
-  std::size_t first = 0, count = 0;
-};
-
 // Appends the chords of a batch's curves to the vertices.
-Range add_chords(const Batch& batch, NurbsTessellator& tessellator, std::vector<Vertex>& vertices) {
+VertexRange add_chords(const Batch& batch, NurbsTessellator& tessellator, std::vector<Vertex>& vertices) {
   const std::size_t first = vertices.size();
   for (const CurveRun& run : batch.runs) {
     const auto degree = static_cast<std::size_t>(run.degree);
@@ -53,13 +50,13 @@ Range add_chords(const Batch& batch, NurbsTessellator& tessellator, std::vector<
   return {first, vertices.size() - first};
 }
 
-// For the chords of all batches: growing would copy what is there.
-void reserve_chords(Scene& scene) {
-  std::size_t chords = 0;
+void add_chords(Scene& scene, NurbsTessellator& tessellator) {
+  std::size_t chords = 0;  // room for all: growing would copy what is there
   for (const Batch& batch : scene.batches) {
     for (const CurveRun& run : batch.runs) chords += run.pieces * static_cast<std::size_t>(run.samples);
   }
   scene.vertices.reserve(scene.vertices.size() + 2 * chords);
+  for (Batch& batch : scene.batches) batch.chords = add_chords(batch, tessellator, scene.vertices);
 }
 
 // Clip coordinates of the whole picture to those of a tile.
@@ -73,7 +70,21 @@ Eigen::Matrix4d tile_projection(const Scene& scene, const Tile& tile) {
   return to_tile * scene.projection;
 }
 
-void set_state(const Scene& scene) {
+// A tile is a window onto the whole picture's viewport, which changes no coordinate but by whole samples. Pictures that
+// are too large for a viewport have one for each tile.
+void set_view(const Scene& scene, const Tile& tile) {
+  const int width = scene.samples_across * scene.width, height = scene.samples_across * scene.height;
+  glMatrixMode(GL_PROJECTION);
+  if (std::max(width, height) <= kLargestFramebuffer) {
+    glViewport(tile.margin - tile.left, tile.margin - tile.bottom, width, height);
+    glLoadMatrixd(scene.projection.data());
+  } else {
+    glViewport(0, 0, tile.full_width(), tile.full_height());
+    glLoadMatrixd(tile_projection(scene, tile).data());
+  }
+}
+
+void set_state(const Scene& scene, bool with_depth) {
   const Vertex* vertices = scene.vertices.data();
   glEnableClientState(GL_VERTEX_ARRAY);
   glEnableClientState(GL_NORMAL_ARRAY);
@@ -92,9 +103,10 @@ void set_state(const Scene& scene) {
   glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, GL_TRUE);
   glColorMaterial(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE);
   for (const GLenum what : std::initializer_list<GLenum>{GL_COLOR_MATERIAL, GL_LIGHTING, GL_LIGHT0, GL_NORMALIZE,
-                                                         GL_DEPTH_TEST, GL_POLYGON_OFFSET_FILL}) {
+                                                         GL_POLYGON_OFFSET_FILL}) {
     glEnable(what);
   }
+  with_depth ? glEnable(GL_DEPTH_TEST) : glDisable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
 }
 
@@ -105,7 +117,7 @@ void set_light(bool lit) {
   glLightfv(GL_LIGHT0, GL_DIFFUSE, std::array{diffuse, diffuse, diffuse, 1.0F}.data());
 }
 
-void draw_range(const Range& range, const std::vector<Placement>& placements, double bias, GLenum mode) {
+void draw_range(const VertexRange& range, const std::vector<Placement>& placements, double bias, GLenum mode) {
   glMatrixMode(GL_MODELVIEW);
   for (const Placement& placement : placements) {
     Eigen::Matrix4f to_eye = placement.to_eye;
@@ -121,26 +133,37 @@ void draw_range(const Range& range, const std::vector<Placement>& placements, do
   }
 }
 
-void draw_batch(const Scene& scene, const Batch& batch, const Range& chords) {
+void draw_batch(const Scene& scene, const Batch& batch) {
   const auto& placements = scene.frames[batch.frame];
-  const Range range{batch.first, batch.count};
   const auto size = std::min(static_cast<float>(scene.samples_across) * batch.size, kWidestLine);
   set_light(scene.lit && batch.kind == Batch::Kind::Triangles);
   switch (batch.kind) {
     case Batch::Kind::Triangles:
-      draw_range(range, placements, batch.bias, GL_TRIANGLES);
+      draw_range(batch.range, placements, batch.bias, GL_TRIANGLES);
       break;
     case Batch::Kind::Lines:
       glLineWidth(size);
-      draw_range(range, placements, batch.bias, GL_LINES);
-      draw_range(chords, placements, batch.bias, GL_LINES);
+      draw_range(batch.range, placements, batch.bias, GL_LINES);
+      draw_range(batch.chords, placements, batch.bias, GL_LINES);
       break;
     case Batch::Kind::Points:
       // Square: after GL_POINT_SMOOTH llvmpipe forgets the polygon offset.
       glPointSize(size);
-      draw_range(range, placements, batch.bias, GL_POINTS);
+      draw_range(batch.range, placements, batch.bias, GL_POINTS);
       break;
   }
+}
+
+// Lines and points of one colour are the same picture whichever is in front.
+bool needs_depth(const Scene& scene) {
+  const auto differs = [&](const VertexRange& range) {
+    const auto begin = scene.vertices.begin() + static_cast<std::ptrdiff_t>(range.first);
+    return std::any_of(begin, begin + static_cast<std::ptrdiff_t>(range.count),
+                       [&](const Vertex& vertex) { return vertex.color != scene.vertices[0].color; });
+  };
+  return std::ranges::any_of(scene.batches, [&](const Batch& batch) {
+    return batch.kind == Batch::Kind::Triangles || differs(batch.range) || differs(batch.chords);
+  });
 }
 
 // Half the widest line, in samples: a line as wide as that lies in front of the faces that meet in it, however steep
@@ -153,35 +176,35 @@ float widest_half(const Scene& scene) {
   return static_cast<float>(scene.samples_across) * size / 2;
 }
 
-void draw_batches(const Scene& scene, std::size_t first, std::size_t end, const std::vector<Range>& chords) {
-  for (std::size_t i = first; i < end; ++i) draw_batch(scene, scene.batches[i], chords[i]);
+void draw_batches(const Scene& scene, std::size_t first, std::size_t end) {
+  for (std::size_t i = first; i < end; ++i) draw_batch(scene, scene.batches[i]);
   glFinish();
   check_gl("drawing");
 }
 
-void draw_tile(const Scene& scene, const Tile& tile, const std::vector<Range>& chords) {
-  glViewport(0, 0, tile.full_width(), tile.full_height());
-  glMatrixMode(GL_PROJECTION);
-  glLoadMatrixd(tile_projection(scene, tile).data());
+void draw_tile(const Scene& scene, const Tile& tile, bool with_depth) {
+  set_view(scene, tile);
   glPolygonOffset(1 + widest_half(scene), 1);
   const auto& color = scene.background;
-  glClearColor(static_cast<GLfloat>(color[0]), static_cast<GLfloat>(color[1]), static_cast<GLfloat>(color[2]),
-               static_cast<GLfloat>(color[3]));
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  draw_batches(scene, 0, scene.model_batches, chords);
+  glClearColor(static_cast<GLfloat>(color[0]) / 255, static_cast<GLfloat>(color[1]) / 255,
+               static_cast<GLfloat>(color[2]) / 255, static_cast<GLfloat>(color[3]) / 255);
+  glClear(with_depth ? GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT : GL_COLOR_BUFFER_BIT);
+  draw_batches(scene, 0, scene.model_batches);
 }
 
 // What lies over the model, and whether there was anything.
-bool draw_legend(const Scene& scene, const std::vector<Range>& chords) {
-  draw_batches(scene, scene.model_batches, scene.batches.size(), chords);
+bool draw_legend(const Scene& scene) {
+  draw_batches(scene, scene.model_batches, scene.batches.size());
   return scene.model_batches < scene.batches.size();
 }
 
-// The last picture's framebuffer serves the next of its size: most of a small picture's time goes into fresh
-// pages.
+// The last picture's framebuffer serves the next unless it is too small or much too large: most of a small picture's
+// time goes into fresh pages.
 void bind_framebuffer(int width, int height) {
   static std::unique_ptr<Framebuffer>& last = *new std::unique_ptr<Framebuffer>;  // outlives the rasterizer
-  if (last == nullptr || last->width() != width || last->height() != height) {
+  const auto area = [](int a, int b) { return static_cast<std::int64_t>(a) * b; };
+  if (last == nullptr || last->width() < width || last->height() < height ||
+      area(last->width(), last->height()) > 2 * area(width, height)) {
     last.reset();
     last = std::make_unique<Framebuffer>(width, height);
   }
@@ -206,29 +229,30 @@ void test_context() {
 }
 
 bool draw_scene(Scene& scene, int largest_tile, NurbsTessellator& tessellator, Image& image) {
-  std::vector<Range> chords;
-  reserve_chords(scene);
-  for (const Batch& batch : scene.batches) chords.push_back(add_chords(batch, tessellator, scene.vertices));
+  add_chords(scene, tessellator);
   image.width = scene.width;
   image.height = scene.height;
-  image.rgba.assign(4 * static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height), 0);
+  fill_background(image, scene.background);
+  const Region region = drawn_region(scene);
+  if (region.empty()) return false;
 
-  const int across = scene.samples_across, whole = across * std::max(scene.width, scene.height);
+  const int across = scene.samples_across, whole = std::max(region.width(), region.height());
   const int limit = std::min(largest_tile, kLargestFramebuffer);
   const int margin = whole <= limit ? 0 : 2 * static_cast<int>(std::ceil(widest_half(scene))) + 2;
   const int side = std::min(whole, limit) - 2 * margin;
-  const int width = std::min(side - side % across, across * scene.width);
-  const int height = std::min(side - side % across, across * scene.height);
+  const int width = std::min(side - side % across, region.width());
+  const int height = std::min(side - side % across, region.height());
   bind_framebuffer(width + 2 * margin, height + 2 * margin);
-  set_state(scene);
+  const bool with_depth = needs_depth(scene);
+  set_state(scene, with_depth);
   bool something = false;
-  for (int bottom = 0; bottom < across * scene.height; bottom += height) {
-    for (int left = 0; left < across * scene.width; left += width) {
-      draw_tile(scene, {left, bottom, width, height, margin}, chords);
+  for (int bottom = region.bottom; bottom < region.top; bottom += height) {
+    for (int left = region.left; left < region.right; left += width) {
+      draw_tile(scene, {left, bottom, width, height, margin}, with_depth);
       const Readback part{left / across, bottom / across, width / across, height / across, margin, across,
                           scene.background};
       something = average_into(image, part) || something;
-      if (draw_legend(scene, chords)) average_into(image, part);
+      if (draw_legend(scene)) average_into(image, part);
     }
   }
   return something;

@@ -159,21 +159,19 @@ class ContourBatches {
 
 }  // namespace
 
-// Curves that two patches share are drawn once, unless each patch has a colour of its own.
+// Curves that patches share are drawn once, in the colour of the first: at one place they would show in turns.
 void add_curves(const Drawing& drawing, Scene& scene) {
-  const bool each_patch = by_patch(drawing);
-  const auto repeated = each_patch ? std::vector<std::vector<bool>>() : repeated_segments(drawing.contours);
+  const auto repeated = repeated_segments(drawing.contours);
   ContourBatches batches(drawing);
   for (std::size_t c = 0; c < drawing.contours.size(); ++c) {
     const Contour& contour = drawing.contours[c];
     if (!placed(drawing, contour.shell)) continue;
     CurveBatch& batch = batches.of(contour);
     for (std::size_t i = 0; i < contour.segments.size(); ++i) {
-      if (each_patch) {
-        batch.add(contour.segments[i].curve, patch_line_color(drawing, contour.shell, contour.patch));
-      } else if (!repeated[c][i]) {
-        batch.add(contour.segments[i].curve, curve_color(drawing, contour.segments[i].curve));
-      }
+      if (repeated[c][i]) continue;
+      const Curve& curve = contour.segments[i].curve;
+      batch.add(curve, patches_have_lines(drawing) ? patch_line_color(drawing, contour.shell, contour.patch)
+                                                   : curve_color(drawing, curve));
     }
   }
   batches.append_to(scene);

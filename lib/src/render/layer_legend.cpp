@@ -43,7 +43,8 @@ class PictureLines {
   }
 
   void append_to(Scene& scene) {
-    Batch batch = make_batch(drawing_, Batch::Kind::Lines, drawing_.frames.size(), kLine);
+    // Lines of two samples would fill small letters.
+    Batch batch = make_batch(drawing_, Batch::Kind::Lines, drawing_.frames.size(), scene.samples_across == 1 ? 1 : kLine);
     batch.bias = 0;
     append(scene, std::move(batch), vertices_);
   }

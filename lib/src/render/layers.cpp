@@ -99,12 +99,12 @@ void add_triangles(const Drawing& drawing, bool by_detail, Scene& scene) {
     if (!placed(drawing, s) || triangles == 0) continue;
     Batch batch = make_batch(drawing, Batch::Kind::Triangles, s, 0);
     batch.bias = 0;
-    batch.first = scene.vertices.size();
-    batch.count = 3 * triangles;
-    scene.vertices.reserve(batch.first + 2 * batch.count);  // lines will follow; pages not used cost nothing
-    scene.vertices.resize(batch.first + batch.count);
+    batch.range.first = scene.vertices.size();
+    batch.range.count = 3 * triangles;
+    scene.vertices.reserve(batch.range.first + 2 * batch.range.count);  // lines will follow; pages not used cost nothing
+    scene.vertices.resize(batch.range.first + batch.range.count);
     fill_triangles(drawing, s, by_detail ? detail_colors(drawing.model.shells[s]) : std::vector<Rgba>{},
-                   scene.vertices.data() + batch.first);
+                   scene.vertices.data() + batch.range.first);
     scene.batches.push_back(std::move(batch));
   }
 }
@@ -117,41 +117,49 @@ void add_detail(const Drawing& drawing, Scene& scene) {
   add_triangles(drawing, true, scene);
 }
 
-using Edge = std::array<Index, 2>;
+// An edge of a patch, whichever way it runs there.
+struct Edge {
+  std::array<Index, 2> ends;
+  std::size_t patch;
 
-// Each edge once, whichever way it runs.
+  Edge(Index from, Index to, std::size_t of_patch)
+      : ends{std::min(from, to), std::max(from, to)}, patch(of_patch) {}
+  friend auto operator<=>(const Edge&, const Edge&) = default;
+};
+
+// Each edge once, of the first patch that has it: lines at one place would show in turns.
 void make_unique(std::vector<Edge>& edges) {
-  for (Edge& edge : edges) std::ranges::sort(edge);
   std::ranges::sort(edges);
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  const auto repeated = std::ranges::unique(edges, std::equal_to<>(), &Edge::ends);
+  edges.erase(repeated.begin(), repeated.end());
 }
 
-void add_edge_lines(const Shell& shell, const LocalFrame& frame, const std::vector<Edge>& edges,
-                    const Rgba& color, std::vector<Vertex>& vertices) {
+// Lines of the patches' colours, or all of one.
+void append_edges(const Drawing& drawing, std::size_t s, const std::vector<Edge>& edges, const Rgba& color,
+                  float width, Scene& scene) {
+  std::vector<Vertex> vertices;
+  vertices.reserve(2 * edges.size());
+  const Shell& shell = drawing.model.shells[s];
   for (const Edge& edge : edges) {
-    for (const Index v : edge) vertices.push_back(flat_vertex(frame, shell.points[v], color));
+    const bool own = patches_have_lines(drawing) && edge.patch < shell.patches.size();
+    const Rgba line_color = own ? patch_line_color(drawing, s, edge.patch) : color;
+    for (const Index v : edge.ends) vertices.push_back(flat_vertex(drawing.frames[s], shell.points[v], line_color));
   }
+  append(scene, make_batch(drawing, Batch::Kind::Lines, s, width), vertices);
 }
 
-// Edges that two patches share are drawn once, unless each patch has a colour of its own.
 void add_edges(const Drawing& drawing, Scene& scene) {
   for (std::size_t s = 0; s < drawing.boundaries.size(); ++s) {
     if (!placed(drawing, s)) continue;
     const Shell& shell = drawing.model.shells[s];
-    std::vector<Vertex> vertices;
-    std::vector<Edge> edges;
     const auto& patches = drawing.boundaries[s].patches;
+    std::vector<Edge> edges;
     for (std::size_t p = 0; p < patches.size(); ++p) {
-      for (const BoundaryEdge& edge : patches[p].edges) edges.push_back({edge.from, edge.to});
-      if (by_patch(drawing)) {
-        add_edge_lines(shell, drawing.frames[s], edges, patch_line_color(drawing, s, p), vertices);
-        edges.clear();
-      }
+      for (const BoundaryEdge& edge : patches[p].edges) edges.emplace_back(edge.from, edge.to, p);
     }
-    edges.insert(edges.end(), shell.creases.begin(), shell.creases.end());
+    for (const auto& [from, to] : shell.creases) edges.emplace_back(from, to, patches.size());
     make_unique(edges);
-    add_edge_lines(shell, drawing.frames[s], edges, drawing.palette.edges, vertices);
-    append(scene, make_batch(drawing, Batch::Kind::Lines, s, 1.2F), vertices);
+    append_edges(drawing, s, edges, drawing.palette.edges, 1.2F, scene);
   }
 }
 
@@ -159,21 +167,19 @@ void add_wireframe(const Drawing& drawing, Scene& scene) {
   for (std::size_t s = 0; s < drawing.model.shells.size(); ++s) {
     if (!placed(drawing, s)) continue;
     const Shell& shell = drawing.model.shells[s];
-    std::vector<std::vector<Edge>> edges(shell.patches.size());
-    parallel_for(edges.size(), 16, drawing.options.threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::vector<Edge>> by_patch(shell.patches.size());
+    parallel_for(by_patch.size(), 16, drawing.options.threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t p = begin; p < end; ++p) {
         for (const Triangle& t : shell.patch_triangles(p)) {
-          for (std::size_t c = 0; c < 3; ++c) edges[p].push_back({t[c], t[(c + 1) % 3]});
+          for (std::size_t c = 0; c < 3; ++c) by_patch[p].emplace_back(t[c], t[(c + 1) % 3], p);
         }
-        make_unique(edges[p]);
+        make_unique(by_patch[p]);
       }
     });
-    std::vector<Vertex> vertices;
-      for (std::size_t p = 0; p < edges.size(); ++p) {
-      const Rgba color = by_patch(drawing) ? patch_line_color(drawing, s, p) : drawing.palette.wireframe;
-      add_edge_lines(shell, drawing.frames[s], edges[p], color, vertices);
-    }
-    append(scene, make_batch(drawing, Batch::Kind::Lines, s, 0.8F), vertices);
+    std::vector<Edge> edges;
+    for (const auto& part : by_patch) edges.insert(edges.end(), part.begin(), part.end());
+    if (patches_have_lines(drawing)) make_unique(edges);
+    append_edges(drawing, s, edges, drawing.palette.wireframe, 0.8F, scene);
   }
 }
 
@@ -258,8 +264,8 @@ Batch make_batch(const Drawing& drawing, Batch::Kind kind, std::size_t frame, fl
 
 void append(Scene& scene, Batch&& batch, const std::vector<Vertex>& vertices) {
   if (vertices.empty() && batch.runs.empty()) return;
-  batch.first = scene.vertices.size();
-  batch.count = vertices.size();
+  batch.range.first = scene.vertices.size();
+  batch.range.count = vertices.size();
   scene.vertices.insert(scene.vertices.end(), vertices.begin(), vertices.end());
   scene.batches.push_back(std::move(batch));
 }
@@ -273,7 +279,7 @@ bool is_legend(Layer layer) {
   return layer == Layer::Axes || layer == Layer::Scale;
 }
 
-bool by_patch(const Drawing& drawing) {
+bool patches_have_lines(const Drawing& drawing) {
   return drawing.options.color_by == ColorBy::Patch || drawing.options.color_by == ColorBy::Number;
 }
 

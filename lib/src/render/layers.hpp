@@ -54,8 +54,8 @@ void append(Scene& scene, Batch&& batch, const std::vector<Vertex>& vertices);
 /// A point of a frame as a vertex.
 Vertex flat_vertex(const LocalFrame& frame, const Point& p, const Rgba& color);
 
-/// Whether the lines of each patch have a colour of their own.
-bool by_patch(const Drawing& drawing);
+/// Whether each patch has lines of a colour of its own.
+bool patches_have_lines(const Drawing& drawing);
 
 /// That colour; dark enough beside the patch's faces, unless it is the patch's number.
 Rgba patch_line_color(const Drawing& drawing, std::size_t shell, std::size_t patch);

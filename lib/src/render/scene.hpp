@@ -45,6 +45,11 @@ inline std::vector<float> bezier_knots(std::size_t pieces, int degree) {
   return knots;
 }
 
+/// Consecutive ones of Scene::vertices.
+struct VertexRange {
+  std::size_t first = 0, count = 0;
+};
+
 /// Primitives that share a frame, a size and a bias.
 struct Batch {
   enum class Kind { Triangles, Lines, Points };
@@ -53,9 +58,10 @@ struct Batch {
   std::size_t frame = 0;             ///< into Scene::frames
   float size = 1;                    ///< line width or point diameter, pixels of the picture
   double bias = 0;                   ///< drawn nearer to the viewer by this, in eye units
-  std::size_t first = 0, count = 0;  ///< into Scene::vertices: 3 a triangle, 2 a line, 1 a point
+  VertexRange range;                 ///< 3 a triangle, 2 a line, 1 a point
   std::vector<CurveRun> runs;        ///< Lines: further lines
   std::vector<float> control;        ///< of the runs
+  VertexRange chords;                ///< of the runs, once the module has made them
 };
 
 /// One occurrence of a frame. There may be millions; the rasterizer takes single precision, once the bias of a batch
@@ -71,7 +77,7 @@ struct Scene {
   int samples_across = 2;              ///< a pixel is the mean of that many rows of that many samples
   bool lit = true;                     ///< faces are shaded by light
   Eigen::Matrix4d projection;          ///< eye to clip coordinates
-  std::array<double, 4> background{};  ///< red, green, blue times alpha; alpha; all 0 to 1
+  std::array<std::uint8_t, 4> background{};  ///< red, green, blue times alpha; alpha
   std::vector<std::vector<Placement>>
       frames;                    ///< a shell's, the model's own, and the last for pixels of the picture
   std::vector<Vertex> vertices;  ///< of all batches

@@ -127,10 +127,12 @@ int samples_across(const RenderOptions& options) {
   return options.color_by == ColorBy::Number || options.samples == 1 ? 1 : options.samples == 4 ? 2 : 4;
 }
 
-std::array<double, 4> premultiplied(const std::optional<Rgba>& color) {
+std::array<std::uint8_t, 4> premultiplied(const std::optional<Rgba>& color) {
   if (!color) return {0, 0, 0, 0};
-  const double alpha = color->alpha / 255.0;
-  return {color->red / 255.0 * alpha, color->green / 255.0 * alpha, color->blue / 255.0 * alpha, alpha};
+  const auto times_alpha = [&](int channel) {
+    return static_cast<std::uint8_t>((channel * color->alpha + 127) / 255);
+  };
+  return {times_alpha(color->red), times_alpha(color->green), times_alpha(color->blue), color->alpha};
 }
 
 // Pixels from the lower left corner, right before the viewer.
@@ -162,7 +164,7 @@ void apply(const LayerStyle& style, std::size_t first_batch, Scene& scene) {
     Batch& batch = scene.batches[b];
     if (style.width && batch.kind != Batch::Kind::Triangles) batch.size = static_cast<float>(*style.width);
     if (!style.color) continue;
-    for (std::size_t v = batch.first; v < batch.first + batch.count; ++v)
+    for (std::size_t v = batch.range.first; v < batch.range.first + batch.range.count; ++v)
       scene.vertices[v].color = *style.color;
     for (CurveRun& run : batch.runs) run.color = *style.color;
   }

@@ -97,10 +97,10 @@ Batch dot_for(const Batch& batch, std::size_t frame, std::vector<Vertex>& vertic
   dot.frame = frame;
   dot.size = batch.size;
   dot.bias = batch.bias;
-  dot.first = vertices.size();
-  dot.count = 1;
+  dot.range.first = vertices.size();
+  dot.range.count = 1;
   vertices.push_back(
-      {.position = {}, .color = batch.count > 0 ? vertices[batch.first].color : batch.runs[0].color});
+      {.position = {}, .color = batch.range.count > 0 ? vertices[batch.range.first].color : batch.runs[0].color});
   return dot;
 }
 

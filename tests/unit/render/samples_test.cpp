@@ -59,7 +59,8 @@ Image reduced(const Image& image, int across) {
         for (std::size_t c = 0; c < 4; ++c) sum[c] += sample[c];
       }
       const int count = across * across;
-      for (const int channel : sum) small.rgba.push_back(static_cast<std::uint8_t>((channel + count / 2) / count));
+      for (const int channel : sum)
+        small.rgba.push_back(static_cast<std::uint8_t>((channel + count / 2) / count));
     }
   }
   return small;
@@ -179,6 +180,22 @@ TEST_CASE("labels: every layer keeps its colours with one sample", "[render][sam
   }
   options.layers.erase(options.layers.begin(), options.layers.begin() + 3);  // the default
   CHECK(colors_of(render(model, boundaries, contours, options)) == expected);
+}
+
+TEST_CASE("labels: an edge that patches share has the colour of one of them all along", "[render][samples]") {
+  const Model model = placed({cylinder(34, 10, 15)});
+  std::vector<Diagnostic> diagnostics;
+  const auto boundaries = extract_boundaries(model, {}, diagnostics);
+  const auto contours = fit_contours(model, boundaries, {}, diagnostics);
+  RenderOptions options = of_samples(1);
+  options.color_by = GENERATE(ColorBy::Patch, ColorBy::Number);
+  options.layers = {GENERATE(Layer::Edges, Layer::Curves)};
+  CHECK(colors_of(render(model, boundaries, contours, options)).size() == 2);
+  options.layers = {Layer::Wireframe};
+  const Colors wires = colors_of(picture(model, options));
+  CHECK(wires.size() == 4);
+  if (options.color_by == ColorBy::Number)
+    CHECK(wires == Colors{channels(kWhite), {0, 0, 1, 255}, {0, 0, 2, 255}, {0, 0, 3, 255}});
 }
 
 TEST_CASE("labels: numbers count the patches of all shells", "[render][samples]") {
