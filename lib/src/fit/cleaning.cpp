@@ -6,7 +6,7 @@ namespace meshcontour::detail {
 namespace {
 
 void drop_last(CleanedPoints& cleaned, const Point& kept) {
-  cleaned.dropped = std::max(cleaned.dropped, (cleaned.points.back() - kept).norm());
+  cleaned.dropped = std::max(cleaned.dropped, (cleaned.points.back() - kept).stableNorm());
   cleaned.points.pop_back();
   cleaned.origin.pop_back();
 }
@@ -41,8 +41,11 @@ CleanedPoints clean_points(std::span<const Point> points, bool closed) {
       drop_last(cleaned, first);
     }
   } else if (!points.empty() && cleaned.origin.back() + 1 != points.size() && cleaned.points.size() > 1) {
-    drop_last(cleaned, points.back());
-    cleaned.points.push_back(points.back());
+    const Point& last = points.back();
+    while (cleaned.points.size() > 1 && (cleaned.points.back() - last).stableNorm() <= smallest) {
+      drop_last(cleaned, last);
+    }
+    cleaned.points.push_back(last);
     cleaned.origin.push_back(points.size() - 1);
   }
   return cleaned;

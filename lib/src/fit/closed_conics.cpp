@@ -54,7 +54,7 @@ Ring ring_of(const Shell& shell, const BoundaryLoop& loop, std::span<const Chain
 
 std::optional<ClosedConic> fit_ring(const Ring& ring) {
   for (const double share : kRungs) {
-    const double eps = std::max(share * ring.tolerance, ring.noise);
+    const double eps = std::min(std::max(share * ring.tolerance, ring.noise), ring.tolerance);
     const auto conic = fit_closed_conic(ring.points, eps, ring.tolerance, kEllipsePoints);
     if (conic) return ClosedConic{0, 0, conic->curve, conic->residual};
   }

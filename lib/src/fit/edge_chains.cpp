@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <span>
 #include <tuple>
 
@@ -124,39 +125,53 @@ class ChainFinder {
     }
   }
 
+  // Which way `count` chords of the loop from `begin` on run along a chain, if they are the chain. Where
+  // patches are joined by position, loops may turn back on themselves, and share chords of a chain without
+  // being it.
+  std::optional<ChainUse> use_of(std::size_t chain, const EdgeChain& known, const BoundaryLoop& loop,
+                                 std::size_t begin, std::size_t count) const {
+    const std::size_t n = loop.vertices.size(), last = known.vertices.size() - 1;
+    if (known.vertices.size() != (known.closed ? count : count + 1)) return std::nullopt;
+    const auto runs_along = [&](bool reversed) {
+      for (std::size_t k = 0; k <= last; ++k) {
+        const std::size_t steps = !reversed ? k : known.closed ? n - k : last - k;
+        if (name_[loop.vertices[(begin + steps) % n]] != name_[known.vertices[k]]) return false;
+      }
+      return true;
+    };
+    if (runs_along(false)) return ChainUse{chain, begin, false};
+    if (runs_along(true)) return ChainUse{chain, begin, true};
+    return std::nullopt;
+  }
+
   ChainUse closed_use(const BoundaryLoop& loop, std::size_t first_chord, ShellChains& result) {
-    std::size_t& chain = chain_of_[chord_of_[first_chord]];
-    if (chain == kNone) {
-      const std::size_t number = result.chains.size();
-      for (std::size_t k = 0; k < loop.vertices.size(); ++k) chain_of_[chord_of_[first_chord + k]] = number;
-      const bool shared = patches_of(chord_of_[first_chord]).size() > 1;
-      result.chains.push_back({{loop.vertices.begin(), loop.vertices.end()}, true, shared});
-      return {number, 0, false};
+    const std::size_t n = loop.vertices.size(), chain = chain_of_[chord_of_[first_chord]];
+    if (chain != kNone && result.chains[chain].closed) {
+      const EdgeChain& known = result.chains[chain];
+      std::size_t position = 0;
+      while (position + 1 < n && name_[loop.vertices[position]] != name_[known.vertices[0]]) ++position;
+      if (const auto use = use_of(chain, known, loop, position, n)) return *use;
     }
-    const std::vector<Index>& vertices = result.chains[chain].vertices;
-    std::size_t position = 0;
-    while (position + 1 < loop.vertices.size() && name_[loop.vertices[position]] != name_[vertices[0]])
-      ++position;
-    const Index next = loop.vertices[(position + 1) % loop.vertices.size()];
-    return {chain, position, name_[next] != name_[vertices[1]]};
+    for (std::size_t k = 0; k < n; ++k) chain_of_[chord_of_[first_chord + k]] = result.chains.size();
+    const bool shared = patches_of(chord_of_[first_chord]).size() > 1;
+    result.chains.push_back({{loop.vertices.begin(), loop.vertices.end()}, true, shared});
+    return {result.chains.size() - 1, 0, false};
   }
 
   ChainUse open_use(const BoundaryLoop& loop, std::size_t first_chord, std::size_t begin, std::size_t count,
                     ShellChains& result) {
     const std::size_t n = loop.vertices.size(), chords = chord_count(loop);
-    std::size_t& chain = chain_of_[chord_of_[first_chord + begin]];
-    if (chain == kNone) {
-      const std::size_t number = result.chains.size();
-      EdgeChain& made = result.chains.emplace_back();
-      for (std::size_t k = 0; k <= count; ++k) made.vertices.push_back(loop.vertices[(begin + k) % n]);
-      for (std::size_t k = 0; k < count; ++k)
-        chain_of_[chord_of_[first_chord + (begin + k) % chords]] = number;
-      made.shared = patches_of(chord_of_[first_chord + begin]).size() > 1;
-      return {number, begin, false};
+    const std::size_t chain = chain_of_[chord_of_[first_chord + begin]];
+    if (chain != kNone && !result.chains[chain].closed) {
+      if (const auto use = use_of(chain, result.chains[chain], loop, begin, count)) return *use;
     }
-    const std::vector<Index>& vertices = result.chains[chain].vertices;
-    const Index here = name_[loop.vertices[begin]], next = name_[loop.vertices[(begin + 1) % n]];
-    return {chain, begin, here != name_[vertices[0]] || next != name_[vertices[1]]};
+    for (std::size_t k = 0; k < count; ++k) {
+      chain_of_[chord_of_[first_chord + (begin + k) % chords]] = result.chains.size();
+    }
+    EdgeChain& made = result.chains.emplace_back();
+    for (std::size_t k = 0; k <= count; ++k) made.vertices.push_back(loop.vertices[(begin + k) % n]);
+    made.shared = patches_of(chord_of_[first_chord + begin]).size() > 1;
+    return {result.chains.size() - 1, begin, false};
   }
 
   const Shell& shell_;

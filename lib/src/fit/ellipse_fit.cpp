@@ -244,6 +244,8 @@ std::optional<EllipseFit> fit_ellipse(std::span<const Point> points, bool closed
   }
   arc.angle = checked_sweep(arc, points, closed);
   if (!(arc.angle > 0 && arc.angle < kTwoPi + 1e-6)) return std::nullopt;
+  arc.angle = std::min(arc.angle, kTwoPi);
+  if (!closed && arc.full() && arc.start != arc.end) return std::nullopt;
   if (closed) {
     if (!(std::abs(arc.angle - kTwoPi) < 1e-6)) return std::nullopt;
     arc.angle = kTwoPi;

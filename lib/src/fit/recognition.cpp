@@ -9,6 +9,7 @@
 #include "fit/closed_conic_fit.hpp"
 #include "fit/evidence.hpp"
 #include "fit/free_form.hpp"
+#include "fit/loop.hpp"
 #include "fit/small_arcs.hpp"
 
 namespace meshcontour::detail {
@@ -40,6 +41,7 @@ class Recognizer {
 
   Recognition run() {
     if (path_.chords() == 0) return {std::move(path_), {}};
+    if (!is_usable_size(path_.extent)) return polygon();
     std::size_t corner = 0;
     while (path_.closed && corner < path_.chords() && !is_hard(corner)) ++corner;
     if (path_.closed && corner == path_.chords()) return recognize_ring();
@@ -59,6 +61,13 @@ class Recognizer {
   }
 
  private:
+  // Of a chain whose lengths have no squares.
+  Recognition polygon() {
+    std::vector<Piece> pieces;
+    for (std::size_t i = 0; i < path_.chords(); ++i) pieces.push_back(line_piece(path_, i, i + 1));
+    return {std::move(path_), std::move(pieces)};
+  }
+
   bool is_hard(std::size_t vertex) const { return path_.turn[vertex] > options_.corner_angle; }
 
   // A line, unless the shell has arcs of one chord and this is one of them.

@@ -13,7 +13,8 @@ namespace {
 constexpr std::size_t kFewest = 3;        // arcs on one circle, to believe in any of them
 constexpr std::size_t kMostCircles = 32;  // axes that single chords are compared with
 constexpr std::size_t kMostCompared = 256;
-constexpr double kAlike = 1e-3;  // by which lengths, radii and axes of like arcs may differ
+constexpr std::size_t kMostChordCircles = 256;  // that every single chord is compared with
+constexpr double kAlike = 1e-3;                 // by which lengths, radii and axes of like arcs may differ
 constexpr double kWiderThanPairs = 1.05;
 
 // A chord in the shell's frame.
@@ -126,7 +127,7 @@ void add_chord_circles(const std::vector<Chord>& chords, const CircularArc& circ
          ++j) {
       found.angle = std::max(found.angle, rings[j].angle);
     }
-    if (j - i >= kFewest) result.push_back(found);
+    if (j - i >= kFewest && result.size() < kMostChordCircles) result.push_back(found);
     i = j;
   }
 }

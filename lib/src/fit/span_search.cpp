@@ -29,7 +29,8 @@ constexpr std::size_t kFewToRepeat = 1'000;  // spans at most, for a search to b
 constexpr double kFirstShare = 0.95;    // of the spans that the density says; all of them if quickness counts
 constexpr double kNextShare = 0.7;      // of the spans that a rejected fit seems to need
 constexpr std::size_t kFineSpans = 64;  // up to here the smallest number is found exactly, then to this share
-constexpr double kPower = 0.12;         // half of the 1/4 that equal errors ask for: steps do not overshoot
+constexpr std::size_t kFewestReduced = 256;  // spans of which more than one may be taken away at last
+constexpr double kPower = 0.12;  // half of the 1/4 that equal errors ask for: steps do not overshoot
 constexpr double kSmallestFactor = 0.6, kLargestFactor = 2.5;
 
 double fourth_power(double x) {
@@ -73,14 +74,15 @@ bool SpanSearch::search() {
   return found <= highest_;
 }
 
-// One span less at a time than the accepted number, as long as that goes well.
+// One span less at a time than the accepted number, of many a small share, as long as that goes well.
 std::size_t SpanSearch::reduced(std::size_t accepted) {
   const double worth = quick_ ? kFewerOfFew : kFewerAtLast;
   while (accepted > lowest_) {
-    const auto spans = static_cast<double>(accepted);
-    if (start_error_ * fourth_power(spans / (spans - 1)) > worth || !attempt(accepted - 1)) break;
+    const std::size_t fewer = accepted - 1 - accepted / kFewestReduced;
+    const double ratio = static_cast<double>(accepted) / static_cast<double>(fewer);
+    if (fewer < lowest_ || start_error_ * fourth_power(ratio) > worth || !attempt(fewer)) break;
     keep();
-    --accepted;
+    accepted = fewer;
   }
   return accepted;
 }

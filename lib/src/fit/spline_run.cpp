@@ -76,8 +76,9 @@ void interpolate(const NormalizedRun& run, SplineRun& result) {
     const double excess = chord_deviation(result.curve, run.parameters[i], run.parameters[i + 1],
                                           run.points[i], run.points[(i + 1) % n], run.limits[i]) /
                           run.limits[i];
-    if (excess > worst) result.worst_chord = i;
-    worst = std::max(worst, excess);
+    if (excess <= worst || !(worst >= 1)) continue;  // no number stays the worst
+    result.worst_chord = i;
+    worst = excess;
   }
   result.accepted = worst <= 1;
 }

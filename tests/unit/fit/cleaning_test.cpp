@@ -39,3 +39,10 @@ TEST_CASE("clean_points: creeping along in small steps is not lost", "[fit]") {
   CHECK(cleaned.points.size() > 400);
   CHECK(cleaned.dropped <= 1e-9);
 }
+
+TEST_CASE("clean_points: the kept last point of an open chain has no other within reach", "[fit]") {
+  const std::vector<Point> points{{-1, 0, 0}, {0, 0, 0}, {1.000000002e-9, 0, 0}, {3e-18, 0, 0}};
+  const auto open = clean_points(points, false);
+  CHECK(open.origin == std::vector<std::size_t>{0, 3});
+  CHECK(open.dropped == Approx(1e-9));
+}

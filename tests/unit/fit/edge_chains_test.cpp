@@ -123,3 +123,38 @@ TEST_CASE("find_edge_chains: patches without common vertices are joined where th
   }
   CHECK(chains_of(apart).chains.size() == chains_of(joined).chains.size());
 }
+
+TEST_CASE("find_edge_chains: a loop that turns back on itself lends its chain to none that goes on",
+          "[fit]") {
+  // All loops have points of their own. The first two run from x = 0 to 2 and back, from 4 to 2 and back; the
+  // third runs from 0 to 4 and back.
+  Shell shell;
+  ShellBoundary boundary;
+  std::vector<BoundaryLoop> loops;
+  const auto add = [&](const std::vector<double>& places) {
+    std::vector<Index> vertices;
+    for (const double x : places) {
+      vertices.push_back(static_cast<Index>(shell.points.size()));
+      shell.points.push_back({x, 0, 0});
+    }
+    loops.push_back({vertices, true});
+  };
+  add({0, 1, 2, 1});
+  add({4, 3, 2, 3});
+  add({0, 1, 2, 3, 4, 3, 2, 1});
+  boundary.patches.resize(2);
+  boundary.patches[0].loops = loops;
+  const ShellChains chains = find_edge_chains(shell, boundary);
+  for (std::size_t l = 0; l < loops.size(); ++l) {
+    const auto& loop = loops[l].vertices;
+    std::size_t chords = 0;
+    for (const ChainUse& use : chains.uses[0][l]) {
+      const std::vector<Index> vertices = walked(chains, use);
+      for (std::size_t k = 0; k < vertices.size(); ++k) {
+        CHECK(shell.points[vertices[k]] == shell.points[loop[(use.position + k) % loop.size()]]);
+      }
+      chords += vertices.size() - 1;
+    }
+    CHECK(chords == loop.size());
+  }
+}

@@ -85,6 +85,13 @@ TEST_CASE("fit_ellipse: other curves are refused", "[fit]") {
   CHECK_FALSE(fit_ellipse(saddle, false, 1e-3));
 }
 
+TEST_CASE("fit_ellipse: an arc whose ends are apart is never a whole ellipse", "[fit]") {
+  const double overlap = GENERATE(-1e-10, 1e-10, 3e-7);
+  const std::vector<Point> points = on_ellipse(tilted_ellipse(0.999), 0.4, 0.4 + 2 * kPi + overlap, 24);
+  const auto fit = fit_ellipse(points, false, 1e-3);
+  CHECK((!fit || !fit->arc.full()));
+}
+
 TEST_CASE("ellipse_deviation: it bounds what is measured, and is tight", "[fit]") {
   const double ratio = GENERATE(1.0, 0.3, 0.02);
   const int chords = GENERATE(8, 25);

@@ -2,6 +2,7 @@
 #include <numbers>
 #include <random>
 
+#include "fit/arc_fit.hpp"
 #include "fit/ellipse_fit.hpp"
 #include "meshcontour/fit.hpp"
 #include "support/catch.hpp"
@@ -134,6 +135,50 @@ TEST_CASE("fit_contours: parts of a noisy circle or ellipse run through their jo
   }
   CHECK(parts == 7);
   CHECK(contours[0].segments.size() == 1);
+}
+
+TEST_CASE("fit_contours: rounded coordinates do not widen the tolerance of a ring in parts", "[fit]") {
+  std::vector<Point> ring = circle(28, 10);
+  for (Point& p : ring) p = p.cast<float>().cast<double>();
+  Loops loops;
+  loops.add(ring);
+  for (const Index first : {0U, 14U}) {
+    std::vector<Index> vertices;
+    for (Index i = 14; i + 1 > 0; --i) vertices.push_back((first + i) % 28);
+    vertices.push_back(static_cast<Index>(loops.model.shells[0].points.size()));
+    loops.model.shells[0].points.push_back({0, 0, 5});
+    loops.add_of(vertices);
+  }
+  FitOptions options;
+  options.tolerance = 1e-8;  // less than the points are off
+  std::vector<Diagnostic> diagnostics;
+  for (const Contour& contour : fit_contours(loops.model, loops.boundaries, options, diagnostics)) {
+    for (const Segment& segment : contour.segments) {
+      const auto* arc = std::get_if<CircularArc>(&segment.curve);
+      if (arc == nullptr) continue;
+      for (const Point& p : ring) CHECK(detail::distance_to_circle(*arc, p) <= options.tolerance);
+    }
+  }
+}
+
+TEST_CASE("fit_contours: edges too short to have a square are their chords", "[fit]") {
+  const double size = GENERATE(1e-90, 1e-170, 1e-310);
+  Loops loops;
+  Shell& shell = loops.model.shells[0];
+  for (int i = 0; i < 9; ++i) shell.points.push_back(size * Point(std::cos(i / 8.0), std::sin(i / 8.0), 0));
+  for (const Point& p : {Point(0, 1, 0), Point(1, 0, 0), Point(0, -1, 0), Point(-1, 0, 0)})
+    shell.points.push_back(p);
+  loops.add_of({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+  loops.add_of({8, 7, 6, 5, 4, 3, 2, 1, 0, 11, 12});
+  std::vector<Diagnostic> diagnostics;
+  for (const Contour& contour : loops.fit(FitMethod::Primitives, diagnostics)) {
+    CHECK_FALSE(contour.fallback);
+    CHECK(contour.segments.size() == 11);
+    for (const Segment& segment : contour.segments) {
+      CHECK(std::holds_alternative<LineSegment>(segment.curve));
+      CHECK(segment.deviation <= size);
+    }
+  }
 }
 
 TEST_CASE("fit_contours: what cannot be fitted is its polygon, and said so", "[fit][error]") {
