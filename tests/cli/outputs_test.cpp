@@ -107,7 +107,7 @@ TEST_CASE("outputs: standard input is read", "[cli]") {
   CHECK(piped.output == run_program({kStud, "-o", "-", "--format", "csv"}).output);
 }
 
-TEST_CASE("outputs: a run without a picture never maps the rasterizer", "[cli]") {
+TEST_CASE("outputs: a table of a small file needs neither the rasterizer nor threads", "[cli]") {
   const TemporaryFolder folder;
   const std::string trace = (folder / "trace").string();
   const ProgramResult result = run_program({kStud, "-o", "-", "--format", "csv"},
@@ -117,4 +117,5 @@ TEST_CASE("outputs: a run without a picture never maps the rasterizer", "[cli]")
   for (const std::string& name : folder.names()) log += file_text(folder / name);
   REQUIRE_THAT(log, Contains("libstdc++"));
   CHECK_THAT(log, !Contains("OSMesa") && !Contains("LLVM") && !Contains("libGL"));
+  CHECK_THAT(log, !Contains("tbbmalloc"));  // which TBB looks for when it starts threads
 }

@@ -15,6 +15,8 @@ namespace meshcontour {
 namespace {
 
 constexpr std::size_t kLoopsPerTask = 8;
+constexpr std::size_t kThreadedPoints =
+    4096;  // in all loops; to fit fewer takes no longer than to start threads
 
 struct Task {
   std::size_t shell, patch, loop;
@@ -40,6 +42,16 @@ std::vector<Task> list_tasks(std::span<const ShellBoundary> boundaries) {
     }
   }
   return tasks;
+}
+
+std::size_t point_count(std::span<const ShellBoundary> boundaries) {
+  std::size_t count = 0;
+  for (const ShellBoundary& boundary : boundaries) {
+    for (const PatchBoundary& patch : boundary.patches) {
+      for (const BoundaryLoop& loop : patch.loops) count += loop.vertices.size();
+    }
+  }
+  return count;
 }
 
 detail::ParametrizedCurve whole_curve(const detail::Loop& loop, FitMethod method) {
@@ -105,8 +117,10 @@ class DefectList {
 }  // namespace
 
 std::vector<Contour> fit_contours(const Model& model, std::span<const ShellBoundary> boundaries,
-                                  const FitOptions& options, std::vector<Diagnostic>& diagnostics) {
-  check(options);
+                                  const FitOptions& chosen, std::vector<Diagnostic>& diagnostics) {
+  check(chosen);
+  FitOptions options = chosen;
+  if (point_count(boundaries) < kThreadedPoints) options.threads = 1;
   const std::vector<Task> tasks = list_tasks(boundaries);
   const bool by_chains = options.method == FitMethod::Approximate || options.method == FitMethod::Primitives;
   std::vector<Contour> contours(tasks.size());
