@@ -26,8 +26,9 @@ constexpr std::size_t kFewVertices = 32;    // so few that nothing is stopped ea
 constexpr double kSuspicious = 1.4;          // times the spans that the points ask for
 constexpr std::size_t kFewToRepeat = 1'000;  // spans at most, for a search to be repeated thoroughly
 
-constexpr double kFirstShare = 0.95;    // of the spans that the density says; all of them if quickness counts
-constexpr double kNextShare = 0.7;      // of the spans that a rejected fit seems to need
+constexpr double kFirstShare = 0.95;  // of the spans that the density says; all of them if quickness counts
+constexpr double kNextShare = 0.7;    // of the spans that a rejected fit seems to need
+constexpr double kNextShareBalanced = 1;  // the same once its knots have been moved, if quickness counts
 constexpr std::size_t kFineSpans = 64;  // up to here the smallest number is found exactly, then to this share
 constexpr std::size_t kFewestReduced = 256;  // spans of which more than one may be taken away at last
 constexpr double kPower = 0.12;  // half of the 1/4 that equal errors ask for: steps do not overshoot
@@ -100,7 +101,8 @@ std::size_t SpanSearch::search_below(std::size_t accepted) {
     const std::size_t low = rejected + 1, high = accepted - 1;
     spans = clamped(start_.total(), low, high);
     if (good) continue;
-    spans = std::max({spans, clamped(kNextShare * needed_, low, high), std::min(low + further / 4, high)});
+    const double share = quick_ && balancings_ > 0 ? kNextShareBalanced : kNextShare;
+    spans = std::max({spans, clamped(share * needed_, low, high), std::min(low + further / 4, high)});
     further = 2 * further + 1;
   }
   return accepted;
