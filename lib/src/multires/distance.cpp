@@ -17,6 +17,7 @@ using detail::TriangleTree;
 constexpr double kSlack = 0.02;       // a bound so close above the largest distance seen is good enough
 constexpr double kResolution = 1e-7;  // of the size: distances below need not be told apart
 constexpr int kMostCuts = 8;          // of a part in a row; rounding can make two triangles cut it for ever
+constexpr double kRounding = 1e-14;  // of a coordinate
 constexpr std::size_t kGrain = 256;
 
 using Polygon = std::vector<Point>;  // convex
@@ -34,13 +35,19 @@ Point centre_of(const Polygon& polygon) {
   return sum / static_cast<double>(polygon.size());
 }
 
-// The parts of a polygon on both sides of a plane; a side with less than a triangle is empty.
-std::pair<Polygon, Polygon> split(const Polygon& polygon, const Point& origin, const Vector& normal) {
+// The parts of a polygon on both sides of a plane; a side with less than a triangle is empty. Corners whose
+// height above it is no larger than `rounding` count as in it.
+std::pair<Polygon, Polygon> split(const Polygon& polygon, const Point& origin, const Vector& normal,
+                                  double rounding = 0) {
   std::pair<Polygon, Polygon> parts;
   bool flat = true;
+  const auto height = [&](const Point& p) {
+    const double above = normal.dot(p - origin);
+    return std::abs(above) <= rounding ? 0 : above;
+  };
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    const double a = normal.dot(p - origin), b = normal.dot(q - origin);
+    const double a = height(p), b = height(q);
     flat = flat && a == 0;
     if (a >= 0) parts.first.push_back(p);
     if (a <= 0) parts.second.push_back(p);
@@ -106,7 +113,8 @@ class Overlay {
   void settle(const Part& whole) {
     const Polygon& part = whole.polygon;
     const Point centre = centre_of(part);
-    const TriangleTree::Hit hit = tree_.nearest(centre);
+    const TriangleTree::Hit hit = tree_.nearest(centre, last_);
+    last_ = hit.triangle;
     const double at_centre = std::sqrt(hit.squared);
     see(at_centre);
     const Corners& triangle = tree_.corners(hit.triangle);
@@ -115,7 +123,7 @@ class Overlay {
     const Corner worst = farthest(part, triangle);
     const double bound = std::min(worst.distance, at_centre + radius);
     if (accepts(bound)) return;
-    see(std::sqrt(tree_.nearest(worst.point).squared));
+    see(std::sqrt(tree_.nearest(worst.point, last_).squared));
     if (accepts(bound)) return;
     if (radius <= resolution_) {
       distance_.upper = std::max(distance_.upper, bound);
@@ -128,10 +136,14 @@ class Overlay {
   bool clip(const Part& part, Index number) {
     const Corners& triangle = tree_.corners(number);
     const Vector normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+    double size = 0;
+    for (const Point& p : triangle) size = std::max(size, p.cwiseAbs().maxCoeff());
     Polygon inside = part.polygon;
     std::vector<Part> outside;
     for (std::size_t k = 0; k < 3 && !inside.empty(); ++k) {
-      auto [in, out] = split(inside, triangle[k], normal.cross(triangle[(k + 1) % 3] - triangle[k]));
+      const Vector across = normal.cross(triangle[(k + 1) % 3] - triangle[k]);
+      // A corner that both surfaces share gives no splinters.
+      auto [in, out] = split(inside, triangle[k], across, kRounding * size * across.norm());
       inside = std::move(in);
       if (!out.empty()) outside.push_back({std::move(out), number, part.cuts + 1});
     }
@@ -156,6 +168,7 @@ class Overlay {
   double enough_, resolution_;
   SurfaceDistance distance_;
   std::vector<Part> parts_;
+  Index last_ = 0;  // triangle that was nearest to a part
 };
 
 // The largest over the triangles of one surface; every triangle's part depends on itself alone.
@@ -184,8 +197,10 @@ double vertex_distance(const Shell& from, std::size_t patch, const TriangleTree&
   return largest(vertices.size(), threads,
                  [&](std::size_t begin, std::size_t end) {
                    double squared = 0;
+                   TriangleTree::Hit hit;
                    for (std::size_t i = begin; i < end; ++i) {
-                     squared = std::max(squared, to.nearest(from.points[vertices[i]]).squared);
+                     hit = to.nearest(from.points[vertices[i]], hit.triangle);
+                     squared = std::max(squared, hit.squared);
                    }
                    return SurfaceDistance{std::sqrt(squared), 0};
                  })

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "multires/stencil.hpp"
+#include "multires/trigonometric_rule.hpp"
 
 namespace meshcontour::detail {
 
@@ -35,9 +36,33 @@ std::vector<Value> ring_shares(std::span<const Value> ring) {
   return shares;
 }
 
-/// Adds `sign` times what hubs give to the odd values, which stand behind the even ones. Linear.
+/// Adds `sign` times what fans give to the odd values.
+template <class Value>
+void add_fan_predictions(const Stencils& stencils, double sign, std::span<Value> values) {
+  for (const Index first : stencils.fans()) {
+    const Stencils::Fan fan = stencils.fan(first);
+    const std::size_t count = fan.spokes.size() + 1;
+    const TrigonometricRule rule(count);
+    const Value across = values[fan.first] - values[fan.last];
+    Value sines = 0.0 * across, double_sines = sines;
+    for (std::size_t j = 1; j < count; ++j) {
+      const Value& value = values[fan.spokes[j - 1].end];
+      sines += rule.sine(j) * value;
+      double_sines += rule.double_sine(j) * value;
+    }
+    for (std::size_t i = 1; i < count; ++i) {
+      const Stencils::Spoke& spoke = fan.spokes[i - 1];
+      values[spoke.odd] += sign * spoke.scale *
+                           (rule.centre(i) * values[fan.centre] + rule.end(i) * across +
+                            rule.inner(i, sines, double_sines));
+    }
+  }
+}
+
+/// Adds `sign` times what hubs and fans give to the odd values, which stand behind the even ones. Linear.
 template <class Value>
 void add_hub_predictions(const Stencils& stencils, double sign, std::span<Value> values) {
+  add_fan_predictions(stencils, sign, values);
   std::vector<Value> ring;
   for (const Index hub : stencils.hubs()) {
     const std::vector<Stencils::Spoke> spokes = stencils.spokes(hub);
@@ -50,9 +75,30 @@ void add_hub_predictions(const Stencils& stencils, double sign, std::span<Value>
   }
 }
 
-/// The transpose: adds to even values what hubs would give of them to the odd ones.
+/// The transpose of add_fan_predictions().
+inline void add_fan_transposed(const Stencils& stencils, std::span<const double> odd_and_even,
+                               std::span<double> even) {
+  for (const Index first : stencils.fans()) {
+    const Stencils::Fan fan = stencils.fan(first);
+    const std::size_t count = fan.spokes.size() + 1;
+    const TrigonometricRule rule(count);
+    double sines = 0, double_sines = 0;
+    for (std::size_t i = 1; i < count; ++i) {
+      const double odd = fan.spokes[i - 1].scale * odd_and_even[fan.spokes[i - 1].odd];
+      sines += rule.sine(i) * odd;
+      double_sines += rule.double_sine(i) * odd;
+      even[fan.centre] += rule.centre(i) * odd;
+      even[fan.first] += rule.end(i) * odd;
+      even[fan.last] -= rule.end(i) * odd;
+    }
+    for (std::size_t j = 1; j < count; ++j) even[fan.spokes[j - 1].end] += rule.inner(j, sines, double_sines);
+  }
+}
+
+/// The transpose: adds to even values what hubs and fans would give of them to the odd ones.
 inline void add_hub_transposed(const Stencils& stencils, std::span<const double> odd_and_even,
                                std::span<double> even) {
+  add_fan_transposed(stencils, odd_and_even, even);
   std::vector<double> ring;
   for (const Index hub : stencils.hubs()) {
     const std::vector<Stencils::Spoke> spokes = stencils.spokes(hub);

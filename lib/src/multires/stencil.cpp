@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "multires/trigonometric_rule.hpp"
+
 namespace meshcontour {
 
 std::vector<double> butterfly_weights(std::size_t valence) {
@@ -23,23 +25,7 @@ std::vector<double> butterfly_weights(std::size_t valence) {
 namespace detail {
 namespace {
 
-constexpr std::size_t kRegularSector = 3;  // triangles at a regular vertex of a straight border
-
-// Weights of the ring 0..k of a border vertex with k triangles for its inner edge i [Zorin & Schroeder 2000];
-// the vertex itself has what is missing to 1, here as the last entry.
-std::vector<double> trigonometric_weights(std::size_t k, std::size_t i) {
-  const double n = static_cast<double>(k), theta = std::numbers::pi / n, at = static_cast<double>(i) * theta;
-  std::vector<double> weights(k + 2);
-  weights[k + 1] = 1 - std::sin(theta) * std::sin(at) / (n * (1 - std::cos(theta)));
-  weights[0] = std::cos(at) / 4 -
-               std::sin(2 * theta) * std::sin(2 * at) / (4 * n * (std::cos(theta) - std::cos(2 * theta)));
-  weights[k] = -weights[0];
-  for (std::size_t j = 1; j < k; ++j) {
-    const double other = static_cast<double>(j) * theta;
-    weights[j] = (std::sin(at) * std::sin(other) + std::sin(2 * at) * std::sin(2 * other) / 2) / n;
-  }
-  return weights;
-}
+constexpr std::uint32_t kRegularSector = 3;  // triangles at a regular vertex of a straight border
 
 }  // namespace
 
@@ -53,6 +39,19 @@ Stencils::Stencils(const MeshLevel& level, BoundaryRule rule) : level_(level), r
   for (std::size_t valence = 3; valence < weights_.size(); ++valence) {
     weights_[valence] = butterfly_weights(valence);
   }
+  if (rule == BoundaryRule::Trigonometric) find_sectors();
+}
+
+void Stencils::find_sectors() {
+  sectors_.assign(level_.twins.size(), 0);
+  for (Index first = 0; first < sectors_.size(); ++first) {
+    if (level_.across(first) != MeshLevel::kNone || level_.sharp_edges[level_.start(first)] < 2) continue;
+    std::uint32_t triangles = 0;
+    for (Index h = first; h != MeshLevel::kNone; h = level_.across(MeshLevel::previous(h))) ++triangles;
+    for (Index h = first; h != MeshLevel::kNone; h = level_.across(MeshLevel::previous(h)))
+      sectors_[h] = triangles;
+    if (triangles > kLargestRing) fans_.push_back(first);
+  }
 }
 
 std::vector<Stencils::Spoke> Stencils::spokes(Index hub) const {
@@ -64,6 +63,17 @@ std::vector<Stencils::Spoke> Stencils::spokes(Index hub) const {
     out.push_back({level_.vertex_count + level_.edges[h], level_.end(h), scale});
     h = level_.twins[MeshLevel::previous(h)];
   } while (h != first);
+  return out;
+}
+
+Stencils::Fan Stencils::fan(Index first) const {
+  Fan out{level_.start(first), level_.end(first), level_.end(first), {}};
+  for (Index h = first; h != MeshLevel::kNone; h = level_.across(MeshLevel::previous(h))) {
+    out.last = level_.opposite(h);
+    if (h == first) continue;
+    const double scale = uses_ring(level_.twins[h]) ? 0.5 : 1;
+    out.spokes.push_back({level_.vertex_count + level_.edges[h], level_.end(h), scale});
+  }
   return out;
 }
 
@@ -83,13 +93,7 @@ void Stencils::of_edge(Index edge, std::vector<Term>& terms) const {
 bool Stencils::uses_ring(Index h) const {
   const Index v = level_.start(h);
   if (level_.sharp_edges[v] == 0) return level_.valences[v] != kRegularValence;
-  if (rule_ == BoundaryRule::Reflect || level_.sharp_edges[v] == 1) return false;
-  std::size_t triangles = 1;
-  for (Index g = level_.across(MeshLevel::previous(h)); g != MeshLevel::kNone; ++triangles) {
-    g = level_.across(MeshLevel::previous(g));
-  }
-  for (Index g = h; level_.across(g) != MeshLevel::kNone; ++triangles) g = MeshLevel::next(level_.across(g));
-  return triangles != kRegularSector;
+  return rule_ == BoundaryRule::Trigonometric && level_.sharp_edges[v] > 1 && sectors_[h] != kRegularSector;
 }
 
 // The other end of the second sharp edge at a vertex that has just two; kNone at the end of a crease and at a
@@ -155,18 +159,18 @@ void Stencils::add_extraordinary(Index h, double scale, std::vector<Term>& terms
 
 // The start vertex of h lies on sharp edges; its ring runs from the sharp edge before h to the one behind it.
 void Stencils::add_trigonometric(Index h, double scale, std::vector<Term>& terms) const {
-  std::size_t position = 0;
-  while (level_.across(h) != MeshLevel::kNone) {
-    h = MeshLevel::next(level_.across(h));
-    ++position;
+  const std::size_t count = sectors_[h];
+  if (count > kLargestRing) return;
+  std::size_t place = 0;
+  for (; level_.across(h) != MeshLevel::kNone; ++place) h = MeshLevel::next(level_.across(h));
+  const TrigonometricRule rule(count);
+  terms.emplace_back(level_.start(h), rule.centre(place) * scale);
+  terms.emplace_back(level_.end(h), rule.end(place) * scale);
+  for (std::size_t j = 1; j < count; ++j) {
+    terms.emplace_back(level_.opposite(h), rule.inner(place, j) * scale);
+    h = level_.across(MeshLevel::previous(h));
   }
-  std::vector<Index> ring = {level_.end(h)};
-  for (Index g = h; g != MeshLevel::kNone; g = level_.across(MeshLevel::previous(g))) {
-    ring.push_back(level_.opposite(g));
-  }
-  const std::vector<double> weights = trigonometric_weights(ring.size() - 1, position);
-  terms.emplace_back(level_.start(h), weights.back() * scale);
-  for (std::size_t j = 0; j < ring.size(); ++j) terms.emplace_back(ring[j], weights[j] * scale);
+  terms.emplace_back(level_.opposite(h), -rule.end(place) * scale);
 }
 
 }  // namespace detail

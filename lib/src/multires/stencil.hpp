@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -49,6 +50,15 @@ class Stencils {
   /// In cyclic order.
   std::vector<Spoke> spokes(Index hub) const;
 
+  /// The same for the trigonometric rule: its vertex with so many triangles between two sharp edges.
+  struct Fan {
+    Index centre = 0, first = 0, last = 0;  ///< vertices; `first` and `last` are the ends of the sharp edges
+    std::vector<Spoke> spokes;              ///< the edges between these, from the first to the last
+  };
+  /// The first halfedges of fans, on their first sharp edges.
+  const std::vector<Index>& fans() const { return fans_; }
+  Fan fan(Index first) const;
+
  private:
   void add_sharp(Index h, std::vector<Term>& terms) const;
   void add_regular(Index h, std::vector<Term>& terms) const;
@@ -58,18 +68,21 @@ class Stencils {
   bool is_regular(Index v) const {
     return level_.sharp_edges[v] == 0 && level_.valences[v] == kRegularValence;
   }
+  void find_sectors();
   bool uses_ring(Index h) const;
   Index sharp_neighbour(Index v, Index except) const;
 
   static constexpr std::uint32_t kRegularValence = 6;
-
-  static constexpr std::size_t kLargestRing = 64;  // edges of a vertex that is no hub
+  static constexpr std::size_t kLargestRing = 64;  // edges of a vertex that is no hub, triangles of no fan
 
   bool is_hub(Index v) const { return level_.sharp_edges[v] == 0 && level_.valences[v] > kLargestRing; }
 
   const MeshLevel& level_;
   BoundaryRule rule_;
-  std::vector<Index> hubs_;
+  std::vector<Index> hubs_, fans_;
+  // Of each halfedge that leaves a vertex of two sharp edges or more: the triangles between the two around it,
+  // else 0. Empty for other rules than the trigonometric one.
+  std::vector<std::uint32_t> sectors_;
   std::vector<std::vector<double>> weights_;  // of the ring around an extraordinary vertex, by its valence
 };
 

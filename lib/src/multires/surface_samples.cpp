@@ -65,8 +65,9 @@ std::vector<SurfaceSample> surface_samples(const Shell& surface, const Shell& me
     sample_patch(surface, p, places, normals, samples);
     const TriangleTree tree(mesh.points, triangles);
     parallel_for(samples.size() - first, kGrain, threads, [&](std::size_t begin, std::size_t end) {
+      Index found = 0;
       for (std::size_t s = first + begin; s < first + end; ++s) {
-        const Index found = tree.nearest(samples[s].point).triangle;
+        found = tree.nearest(samples[s].point, found).triangle;
         const auto& [a, b, c] = tree.corners(found);
         if ((b - a).cross(c - a).dot(samples[s].normal) < 0) samples[s].share = -1;
         samples[s].triangle = static_cast<Index>(mesh.patches[p].first_triangle) + found;

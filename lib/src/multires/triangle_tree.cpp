@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 namespace meshcontour::detail {
@@ -9,6 +10,8 @@ namespace {
 
 constexpr Index kLeafSize = 4;
 constexpr double kRounding = 1e-14;      // of a coordinate
+constexpr double kLong = 16;             // triangles: the squares of their long sides beside doubled areas
+constexpr double kAligned = 0.9;         // triangles: the sum of their long sides beside that of the lengths
 constexpr std::size_t kStackSize = 128;  // twice the depth of a tree that is halved at each node
 
 Point nearest_on_segment(const Point& a, const Point& b, const Point& p) {
@@ -41,6 +44,13 @@ Vector longest_side(const Corners& t) {
     if (side.squaredNorm() > longest.squaredNorm()) longest = side;
   }
   return longest;
+}
+
+// All but the shortest one.
+std::array<Vector, 2> long_sides(const Corners& t) {
+  std::array<Vector, 3> sides = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
+  std::ranges::sort(sides, std::ranges::greater{}, [](const Vector& side) { return side.squaredNorm(); });
+  return {sides[0], sides[1]};
 }
 
 }  // namespace
@@ -77,33 +87,105 @@ TriangleTree::TriangleTree(std::span<const Point> points, std::span<const Triang
   corners_ = std::move(ordered);
 }
 
-void TriangleTree::bound(Node& node, std::span<const Index> triangles) const {
+// How triangles lie, on the whole.
+struct TriangleTree::Directions {
   Vector normal = Vector::Zero(), along = Vector::Zero();
+  double aspect = 1;     // of the triangles: length beside width
+  bool aligned = false;  // whether they are long, in about the same direction
+};
+
+TriangleTree::Directions TriangleTree::directions_of(std::span<const Index> triangles) const {
+  Directions out;
+  double areas = 0, lengths = 0, squares = 0;
   for (const Index t : triangles) {
     const auto& [a, b, c] = corners_[t];
-    for (const Point& corner : corners_[t]) node.box.extend(corner);
-    add_aligned(normal, (b - a).cross(c - a));
-    add_aligned(along, longest_side(corners_[t]));
+    const Vector cross = (b - a).cross(c - a), side = longest_side(corners_[t]);
+    add_aligned(out.normal, cross);
+    add_aligned(out.along, side);
+    areas += cross.norm();
+    squares += side.squaredNorm();
+    lengths += side.norm();
   }
-  node.across = normal.stableNormalized().cross(along.stableNormalized()).stableNormalized();
-  node.low = std::numeric_limits<double>::infinity();
-  node.high = -node.low;
+  out.aspect = squares / areas;
+  out.aligned = squares > kLong * areas && out.along.norm() > kAligned * lengths;
+  out.normal.stableNormalize();
+  out.along.stableNormalize();
+  return out;
+}
+
+TriangleTree::Slab TriangleTree::slab_of(const Vector& across, std::span<const Index> triangles) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Slab slab{across, kInfinity, -kInfinity};
   double size = 0;
   for (const Index t : triangles) {
     for (const Point& corner : corners_[t]) {
-      const double at = node.across.dot(corner);
-      node.low = std::min(node.low, at);
-      node.high = std::max(node.high, at);
+      const double at = across.dot(corner);
+      slab.low = std::min(slab.low, at);
+      slab.high = std::max(slab.high, at);
       size = std::max(size, corner.cwiseAbs().maxCoeff());
     }
   }
-  node.low -= kRounding * size;
-  node.high += kRounding * size;
+  slab.low -= kRounding * size;
+  slab.high += kRounding * size;
+  return slab;
 }
 
-double TriangleTree::squared_distance(const Node& node, const Point& p) {
-  const double at = node.across.dot(p), beyond = std::max({node.low - at, at - node.high, 0.0});
+// Along the long sides that lie most to the right and most to the left of their mean.
+TriangleTree::Sector TriangleTree::sector_of(const Directions& directions,
+                                             std::span<const Index> triangles) const {
+  const auto& [normal, along, aspect, aligned] = directions;
+  Vector right = along, left = along;
+  for (const Index t : triangles) {
+    for (Vector side : long_sides(corners_[t])) {
+      if (side.dot(along) < 0) side = -side;
+      if (normal.dot(right.cross(side)) < 0) right = side;
+      if (normal.dot(left.cross(side)) > 0) left = side;
+    }
+  }
+  return {slab_of(normal.cross(right).stableNormalized(), triangles),
+          slab_of(normal.cross(left).stableNormalized(), triangles), slab_of(normal, triangles)};
+}
+
+void TriangleTree::bound(Node& node, const Directions& directions, std::span<const Index> triangles) {
+  for (const Index t : triangles) {
+    for (const Point& corner : corners_[t]) node.box.extend(corner);
+  }
+  node.slab = slab_of(directions.normal.cross(directions.along).stableNormalized(), triangles);
+  if (!directions.aligned) return;
+  node.sector = static_cast<Index>(sectors_.size());
+  sectors_.push_back(sector_of(directions, triangles));
+}
+
+double TriangleTree::squared_distance(const Node& node, const Point& p) const {
+  double beyond = node.slab.distance(p);
+  if (node.sector != kNoSector) {
+    for (const Slab& slab : sectors_[node.sector]) beyond = std::max(beyond, slab.distance(p));
+  }
   return std::max(node.box.squaredExteriorDistance(p), beyond * beyond);
+}
+
+// The direction in which to halve a set of triangles: the side of the box of their centres that is longest; of
+// long ones along them or across, in which the centres are farther apart beside the extents of the triangles.
+Vector TriangleTree::cut_direction(const Directions& directions, std::span<const Index> triangles,
+                                   const std::vector<Point>& centres) const {
+  if (directions.aligned) {
+    const Vector across = directions.normal.cross(directions.along);
+    const auto extent = [&](const Vector& direction) {
+      double low = direction.dot(centres[triangles.front()]), high = low;
+      for (const Index t : triangles) {
+        const double at = direction.dot(centres[t]);
+        low = std::min(low, at);
+        high = std::max(high, at);
+      }
+      return high - low;
+    };
+    return directions.aspect * extent(across) > extent(directions.along) ? across : directions.along;
+  }
+  Box spread;
+  for (const Index t : triangles) spread.extend(centres[t]);
+  Eigen::Index axis = 0;
+  spread.sizes().maxCoeff(&axis);
+  return Vector::Unit(axis);
 }
 
 void TriangleTree::build() {
@@ -112,6 +194,7 @@ void TriangleTree::build() {
   };
   std::vector<Task> tasks = {{0, static_cast<Index>(number_.size()), 0}};
   std::vector<Point> centres(corners_.size());
+  std::vector<double> places(corners_.size());  // of the centres, in the direction of a cut
   for (std::size_t t = 0; t < centres.size(); ++t)
     centres[t] = (corners_[t][0] + corners_[t][1] + corners_[t][2]) / 3;
   // The last task pushed is a node's first child, so that it follows the node.
@@ -121,29 +204,40 @@ void TriangleTree::build() {
     const auto index = static_cast<Index>(nodes_.size());
     if (index > 0 && index != parent + 1) nodes_[parent].second = index;
     Node& node = nodes_.emplace_back();
-    Box spread;
     const std::span<const Index> triangles(number_.data() + first, count);
-    bound(node, triangles);
-    for (const Index t : triangles) spread.extend(centres[t]);
+    const Directions directions = directions_of(triangles);
+    bound(node, directions, triangles);
     if (count <= kLeafSize) {
       node.first = first;
       node.count = count;
       continue;
     }
-    Eigen::Index axis = 0;
-    spread.sizes().maxCoeff(&axis);
+    const Vector direction = cut_direction(directions, triangles, centres);
+    for (const Index t : triangles) places[t] = direction.dot(centres[t]);
     const auto begin = number_.begin() + first;
     std::nth_element(begin, begin + count / 2, begin + count, [&](Index a, Index b) {
-      return centres[a][axis] < centres[b][axis] || (centres[a][axis] == centres[b][axis] && a < b);
+      return places[a] < places[b] || (places[a] == places[b] && a < b);
     });
     tasks.push_back({first + count / 2, count - count / 2, index});
     tasks.push_back({first, count / 2, index});
   }
 }
 
-TriangleTree::Hit TriangleTree::nearest(const Point& p) const {
+void TriangleTree::look_at(const Node& leaf, const Point& p, Hit& best) const {
+  for (Index i = leaf.first; i < leaf.first + leaf.count; ++i) {
+    const double squared = (nearest_point(corners_[i], p) - p).squaredNorm();
+    if (!(squared < best.squared)) continue;
+    best.squared = squared;
+    best.triangle = number_[i];
+  }
+  best.looked_at += leaf.count;
+}
+
+TriangleTree::Hit TriangleTree::nearest(const Point& p, Index hint) const {
   Hit best;
   if (nodes_.empty()) return best;
+  // The hint is found again where it is what the search would meet.
+  best.squared = std::nextafter((nearest_point(corners(hint), p) - p).squaredNorm(), best.squared);
   std::array<std::pair<Index, double>, kStackSize> stack;
   std::size_t size = 0;
   stack[size++] = {0, 0};
@@ -151,11 +245,10 @@ TriangleTree::Hit TriangleTree::nearest(const Point& p) const {
     const auto [index, bound] = stack[--size];
     if (bound >= best.squared) continue;
     const Node& node = nodes_[index];
-    for (Index i = node.first; i < node.first + node.count; ++i) {
-      const double squared = (nearest_point(corners_[i], p) - p).squaredNorm();
-      if (squared < best.squared) best = {squared, number_[i]};
+    if (node.count > 0) {
+      look_at(node, p, best);
+      continue;
     }
-    if (node.count > 0) continue;
     std::pair<Index, double> near{index + 1, squared_distance(nodes_[index + 1], p)};
     std::pair<Index, double> far{node.second, squared_distance(nodes_[node.second], p)};
     if (far.second < near.second) std::swap(near, far);

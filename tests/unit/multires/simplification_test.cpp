@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "meshcontour/cleaning.hpp"
+#include "meshcontour/remeshing.hpp"
 #include "multires/triangle_tree.hpp"
 #include "support/catch.hpp"
 #include "support/dirty_meshes.hpp"
@@ -168,18 +169,37 @@ TEST_CASE("TriangleTree: the nearest of long triangles askew is the nearest of a
 }
 
 TEST_CASE("simplify_shell: a fan of many triangles around one vertex ends", "[multires]") {
-  const Index count = 20000;
-  std::vector<Point> points = {{0, 0, 0}};
-  std::vector<Triangle> triangles;
-  for (Index i = 0; i < count; ++i) {
-    const double angle = 2 * std::numbers::pi * i / count;
-    points.push_back({std::cos(angle), std::sin(angle), 0});
-    triangles.push_back({0, 1 + i, 1 + (i + 1) % count});
-  }
-  const Shell fan = surfaces::shell_of(std::move(points), std::move(triangles));
+  const Shell fan = surfaces::fan(20000);
   const Shell fewer = simplified(fan, SimplifyGoal::Triangles, 5000);
   CHECK(fewer.triangles.size() <= 5000);
   CHECK(patch_distance(fan, fewer, 1).upper <= 1e-6);
+}
+
+TEST_CASE("TriangleTree: among thousands of long triangles it looks at few", "[multires][property]") {
+  const double height = GENERATE(0.0, 1.5);
+  const Shell fan = surfaces::fan(10000, height), mesh = GENERATE(false, true) ? remeshed(fan).shell : fan;
+  const detail::TriangleTree tree(mesh.points, mesh.triangles);
+  std::mt19937 random(4);
+  Index hint = 0;
+  std::size_t looked_at = 0;
+  constexpr std::size_t kTrials = 20000;
+  for (std::size_t trial = 0; trial < kTrials; ++trial) {
+    const double angle = 1e-3 * static_cast<double>(trial), share = 0.5 + surfaces::uniform(random) / 2;
+    const Point p(share * std::cos(angle), share * std::sin(angle), (1 - share) * height);
+    const detail::TriangleTree::Hit hit = tree.nearest(p, hint);
+    CHECK(hit.triangle == tree.nearest(p).triangle);
+    CHECK(hit.squared <= 1e-12);
+    hint = hit.triangle;
+    looked_at += hit.looked_at;
+  }
+  CHECK(looked_at <= 12 * kTrials);
+}
+
+TEST_CASE("patch_distance: corners that two fans share cost no more than others", "[multires]") {
+  const Shell fan = surfaces::fan(20000, 1);
+  const Remesh remesh = remeshed(fan);
+  CHECK(remesh.error <= 1e-5);
+  CHECK(remesh.flipped == 0);
 }
 
 TEST_CASE("patch_distance: slivers that rounding leaves between triangles end", "[multires]") {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <random>
 #include <set>
 #include <vector>
@@ -30,6 +31,30 @@ inline Shell shell_of(std::vector<Point> points, std::vector<Triangle> triangles
   shell.triangles = std::move(triangles);
   shell.patches = {{"", {}, 0, shell.triangles.size()}};
   return shell;
+}
+
+/// `count` triangles from the rim of a unit disk to its middle, which is raised.
+inline Shell fan(Index count, double height = 0) {
+  std::vector<Point> points = {{0, 0, height}};
+  std::vector<Triangle> triangles;
+  for (Index i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    points.push_back({std::cos(angle), std::sin(angle), 0});
+    triangles.push_back({0, 1 + i, 1 + (i + 1) % count});
+  }
+  return shell_of(std::move(points), std::move(triangles));
+}
+
+/// A polygon cut into `count` triangles from its vertex 0.
+inline Shell corner_fan(Index count) {
+  std::vector<Point> points;
+  std::vector<Triangle> triangles;
+  for (Index i = 0; i < count + 2; ++i) {
+    const double angle = 2 * std::numbers::pi * i / (count + 2);
+    points.push_back({std::cos(angle), std::sin(angle), 0});
+    if (i > 1) triangles.push_back({0, i - 1, i});
+  }
+  return shell_of(std::move(points), std::move(triangles));
 }
 
 inline Shell octahedron() {

@@ -188,6 +188,65 @@ TEST_CASE("subdivided: the rule of a vertex with hundreds of edges is that of th
   }
 }
 
+TEST_CASE("subdivided: a border vertex of hundreds of triangles follows the trigonometric rule",
+          "[multires][property]") {
+  const Index triangles = GENERATE(40u, 64u, 65u, 400u);
+  Shell shell = surfaces::corner_fan(triangles);
+  std::mt19937 random(7);
+  for (Point& p : shell.points) p += 0.3 * Point(uniform(random), uniform(random), uniform(random));
+  const Shell fine = subdivided(shell, 1, {.boundary = BoundaryRule::Trigonometric});
+  const MeshLevel level = detail::make_level(shell);
+  const double n = triangles, theta = std::numbers::pi / n;
+  for (Index h = 0; h < level.twins.size(); ++h) {
+    // The rule of the other end, with two triangles, has the other half.
+    if (level.start(h) != 0 || level.across(h) == MeshLevel::kNone) continue;
+    const double at = (level.end(h) - 1) * theta;
+    const double end = std::cos(at) / 4 - std::sin(2 * theta) * std::sin(2 * at) /
+                                              (4 * n * (std::cos(theta) - std::cos(2 * theta)));
+    Point expected = (1 - std::sin(theta) * std::sin(at) / (n * (1 - std::cos(theta)))) * shell.points[0] +
+                     end * (shell.points[1] - shell.points[triangles + 1]);
+    for (Index j = 1; j < triangles; ++j) {
+      expected += (std::sin(at) * std::sin(j * theta) + std::sin(2 * at) * std::sin(2 * j * theta) / 2) / n *
+                  shell.points[j + 1];
+    }
+    const Point other = (shell.points[0] + shell.points[level.end(h)]) / 2;
+    CHECK((fine.points[level.vertex_count + level.edges[h]] - (expected + other) / 2).norm() <= 1e-13);
+  }
+}
+
+TEST_CASE("Stencils: all together are as large as the mesh, whatever the valences", "[multires]") {
+  const Shell shell = GENERATE(surfaces::fan(50000), surfaces::corner_fan(50000));
+  const MeshLevel level = detail::make_level(shell);
+  const detail::Stencils stencils(level, GENERATE(BoundaryRule::Reflect, BoundaryRule::Trigonometric));
+  std::vector<detail::Stencils::Term> terms;
+  std::size_t all = 0;
+  for (Index e = 0; e < level.edge_count(); ++e) {
+    stencils.of_edge(e, terms);
+    all += terms.size();
+  }
+  CHECK(all <= 70 * level.edge_count());
+}
+
+TEST_CASE("WaveletTransform: around border vertices of many triangles details come back, the mean stays",
+          "[multires][property]") {
+  const Shell base = surfaces::corner_fan(GENERATE(30u, 200u));
+  const WaveletTransform transform(base, 2, {.boundary = BoundaryRule::Trigonometric});
+  std::mt19937 random(11);
+  std::vector<Point> points(transform.vertex_count(2));
+  for (Point& p : points) p = Point(uniform(random), uniform(random), uniform(random));
+  const std::vector<Point> given = points;
+  transform.synthesise(points);
+  const std::vector<Point> fine = points;
+  transform.analyse(points);
+  CHECK(apart(points, given) <= 1e-12 * largest(fine));
+  // Integrals are the transpose of the rule: that of the constant 1 stays, and of any coarse surface too.
+  std::fill(points.begin() + transform.vertex_count(0), points.end(), Point::Zero());
+  const std::vector<Point> coarse = points;
+  transform.synthesise(points);
+  CHECK((mean_of(coarse, transform.integrals(0)) - mean_of(points, transform.integrals(2))).norm() <=
+        1e-12 * largest(points));
+}
+
 TEST_CASE("WaveletTransform: random details come back, the mean stays", "[multires][property]") {
   const int kind = GENERATE(range(0, 6));
   const unsigned levels = kind == 0 ? 8 : 4;
