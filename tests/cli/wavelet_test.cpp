@@ -55,6 +55,23 @@ TEST_CASE("wavelet: a mesh that comes from no subdivision is remeshed, unless it
   CHECK_THAT(whole.errors, Contains("written as it is"));
 }
 
+TEST_CASE("wavelet: details beside a stream are those without one, of the same remesh", "[cli]") {
+  const std::string stud = std::string(MESHCONTOUR_DATA_DIR) + "/stud.xml";
+  const TemporaryFolder folder;
+  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+  const std::vector<std::string> draw = {stud, "--layers", "detail", "--size", "200x150", "-v", "-o"};
+  std::vector<std::string> alone = draw, beside = draw;
+  alone.push_back(path("alone.png"));
+  beside.insert(beside.end(), {path("beside.png"), "--save-wavelet", path("stud.mcw")});
+  CHECK(run_program(alone).code == 0);
+  const ProgramResult both = run_program(beside);
+  CHECK(both.code == 0);
+  const std::size_t note = both.errors.find("remeshed from");
+  REQUIRE(note != std::string::npos);
+  CHECK(both.errors.find("remeshed from", note + 1) == std::string::npos);
+  CHECK(file_text(path("alone.png")) == file_text(path("beside.png")));
+}
+
 TEST_CASE("wavelet: what is no manifold is refused with its reason", "[cli]") {
   const TemporaryFolder folder;
   const std::string fin = (folder.path() / "fin.off").string();

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "meshcontour/wavelet.hpp"
@@ -9,9 +10,9 @@
 namespace meshcontour {
 
 struct RemeshOptions {
-  unsigned most_levels = 6;  ///< of subdivision, 1 to 8; fewer where patches are small
-  std::size_t base_triangles = 200;  ///< of the base mesh about, up to four times as many; more where patches,
-                                     ///< topology or the tolerance need them
+  unsigned most_levels = 6;          ///< of subdivision, 1 to 8; fewer where patches are small
+  std::size_t base_triangles = 200;  ///< of the base mesh about, up to four times as many; more where
+                                     ///< patches, topology or the tolerance need them
   double tolerance = 0;  ///< distance of both surfaces at which base triangles become finer, as far as that
                          ///< helps; 0: 0.5 % of the box diagonal; model units
   unsigned threads = 0;  ///< 0: one per processor
@@ -44,17 +45,29 @@ struct Remesh {
 ///                orientable manifold (naming the vertex).
 Remesh remeshed(const Shell& shell, const RemeshOptions& options = {});
 
-/// The model with a remesh in place of every shell whose triangles come from no subdivision, and a note for
-/// each of them. Shells that are no orientable manifold stay as they are; a note says why.
+/// The remeshes of a model's shells.
+struct ModelRemesh {
+  /// One a shell; nothing where the triangles come from a subdivision, where there are none, and where they
+  /// are no orientable manifold.
+  std::vector<std::optional<Remesh>> shells;
+  std::vector<Diagnostic> notes;  ///< for each shell that was remeshed, and for each that could not be
+};
+
+/// Remeshes the shells of a model whose triangles come from no subdivision.
 ///
 /// @throws Error  Usage if an option is out of range.
-Model with_remeshed_shells(const Model& model, const RemeshOptions& options, std::vector<Diagnostic>& notes);
+ModelRemesh remeshed_model(const Model& model, const RemeshOptions& options = {});
+
+/// The model with remeshes in the place of the shells that have one.
+///
+/// @param remesh  of this model.
+Model with_remeshed_shells(const Model& model, const ModelRemesh& remesh);
 
 /// detail_sizes() of a remesh, what of the coefficients lies along the surface left out: of each point of the
 /// shell the largest on the triangles around it.
 ///
-/// @throws Error  as remeshed().
-std::vector<double> remeshed_detail_sizes(const Shell& shell, const SubdivisionOptions& subdivide,
-                                          const RemeshOptions& options = {});
+/// @param remesh  of this shell.
+std::vector<double> remeshed_detail_sizes(const Shell& shell, const Remesh& remesh,
+                                          const SubdivisionOptions& subdivide = {});
 
 }  // namespace meshcontour

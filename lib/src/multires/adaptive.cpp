@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "multires/triangle_shape.hpp"
+
 namespace meshcontour::detail {
 namespace {
 
@@ -19,14 +21,6 @@ std::vector<Vector> vertex_normals(const MeshLevel& level, std::span<const Point
   }
   for (Vector& normal : normals) normal.stableNormalize();
   return normals;
-}
-
-// The sharpest of the cosines of a triangle's angles: large for a thin one.
-double thinness(const Point& a, const Point& b, const Point& c) {
-  const auto cosine = [](const Point& at, const Point& p, const Point& q) {
-    return (p - at).normalized().dot((q - at).normalized());
-  };
-  return std::max({cosine(a, b, c), cosine(b, c, a), cosine(c, a, b)});
 }
 
 }  // namespace
@@ -161,8 +155,8 @@ AdaptiveMesh::Leaf AdaptiveMesh::leaf_of(const ActiveEdges& active, std::size_t 
   if (leaf.active == 2) {
     const Point &a = points_[leaf.corners[0]], &c = points_[leaf.corners[2]], &m = points_[leaf.middles[0]],
                 &n = points_[leaf.middles[1]];
-    leaf.from_first =
-        std::max(thinness(a, m, n), thinness(a, n, c)) < std::max(thinness(a, m, c), thinness(m, n, c));
+    leaf.from_first = std::max(cosine_of_smallest_angle(a, m, n), cosine_of_smallest_angle(a, n, c)) <
+                      std::max(cosine_of_smallest_angle(a, m, c), cosine_of_smallest_angle(m, n, c));
   }
   return leaf;
 }

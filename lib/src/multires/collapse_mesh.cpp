@@ -171,9 +171,12 @@ bool CollapseMesh::can_flip(Index h) {
   }
   const Index tip = start(previous(h)), across = start(previous(twins_[h]));
   if (tip == across) return false;
-  outgoing(tip, ring_);
+  // The one with fewer edges is gone round.
+  const auto [least, other] =
+      valences_[tip] <= valences_[across] ? std::pair(tip, across) : std::pair(across, tip);
+  outgoing(least, ring_);
   return std::ranges::none_of(
-      ring_, [&](Index g) { return end(g) == across || start(previous(g)) == across; });
+      ring_, [&, other = other](Index g) { return end(g) == other || start(previous(g)) == other; });
 }
 
 void CollapseMesh::flip(Index h) {
@@ -183,8 +186,7 @@ void CollapseMesh::flip(Index h) {
   ++valences_[tip];
   ++valences_[across];
   // What lay between v and the tip, u and the tip across, and that and v goes to other halfedges.
-  const std::array<std::pair<Index, Index>, 3> moves = {
-      {{next(h), next(g)}, {next(g), h}, {previous(g), g}}};
+  const std::array<std::pair<Index, Index>, 3> moves = {{{next(h), next(g)}, {next(g), h}, {previous(g), g}}};
   std::array<Index, 3> twins{};
   std::array<std::uint8_t, 3> sharp{};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -17,7 +17,7 @@ using detail::TriangleTree;
 constexpr double kSlack = 0.02;       // a bound so close above the largest distance seen is good enough
 constexpr double kResolution = 1e-7;  // of the size: distances below need not be told apart
 constexpr int kMostCuts = 8;          // of a part in a row; rounding can make two triangles cut it for ever
-constexpr double kRounding = 1e-14;  // of a coordinate
+constexpr double kRounding = 1e-14;   // of a coordinate
 constexpr std::size_t kGrain = 256;
 
 using Polygon = std::vector<Point>;  // convex

@@ -52,9 +52,9 @@ void add_fan_predictions(const Stencils& stencils, double sign, std::span<Value>
     }
     for (std::size_t i = 1; i < count; ++i) {
       const Stencils::Spoke& spoke = fan.spokes[i - 1];
-      values[spoke.odd] += sign * spoke.scale *
-                           (rule.centre(i) * values[fan.centre] + rule.end(i) * across +
-                            rule.inner(i, sines, double_sines));
+      values[spoke.odd] +=
+          sign * spoke.scale *
+          (rule.centre(i) * values[fan.centre] + rule.end(i) * across + rule.inner(i, sines, double_sines));
     }
   }
 }

@@ -12,7 +12,8 @@ namespace {
 
 // Where the halfedges of its children stand behind 12 f, for triangle f.
 constexpr std::array<Index, 3> kFirstHalf = {0, 4, 8}, kSecondHalf = {3, 7, 2};  // of its edges
-constexpr std::array<Index, 3> kFromOdd = {1, 5, 2};  // the first that leaves the odd vertex of an edge inside it
+// The first that leaves the odd vertex of an edge inside it.
+constexpr std::array<Index, 3> kFromOdd = {1, 5, 2};
 struct InnerEdge {
   Index halfedge, twin;
 };

@@ -11,9 +11,10 @@ namespace meshcontour::detail {
 
 /// Connectivity of a triangle 2-manifold with or without boundary, as flat arrays.
 ///
-/// Halfedge h = 3 f + k runs from corner k of triangle f to the next one. Edges are numbered by first appearance,
-/// triangle by triangle. Quadrisection gives edge e the odd vertex vertex_count + e, and triangle f = (a, b, c) with
-/// the odd vertices p, q, r of ab, bc, ca the children 4f: (a, p, r), 4f+1: (p, b, q), 4f+2: (r, q, c), 4f+3: (p, q, r).
+/// Halfedge h = 3 f + k runs from corner k of triangle f to the next one. Edges are numbered by first
+/// appearance, triangle by triangle. Quadrisection gives edge e the odd vertex vertex_count + e, and triangle
+/// f = (a, b, c) with the odd vertices p, q, r of ab, bc, ca the children 4f: (a, p, r), 4f+1: (p, b, q),
+/// 4f+2: (r, q, c), 4f+3: (p, q, r).
 struct MeshLevel {
   static constexpr Index kNone = 0xffffffff;
 
@@ -44,12 +45,13 @@ struct MeshLevel {
 /// The level of a triangle list.
 ///
 /// @param is_crease  called for the two triangles of each inner edge.
-/// @throws Error     BadData naming the vertices of an edge with three or more triangles or two that run along it the
-///                   same way, of a degenerate triangle, or a vertex where several fans meet.
+/// @throws Error     BadData naming the vertices of an edge with three or more triangles or two that run
+///                   along it the same way, of a degenerate triangle, or a vertex where several fans meet.
 MeshLevel make_level(std::span<const Triangle> triangles, Index vertex_count,
                      const std::function<bool(std::size_t, std::size_t)>& is_crease);
 
-/// The level of a shell's triangles; edges between patches are sharp if wanted, creases inside patches are not.
+/// The level of a shell's triangles; edges between patches are sharp if wanted, creases inside patches are
+/// not.
 ///
 /// @throws Error  as above.
 MeshLevel make_level(const Shell& shell, bool patch_borders = true);

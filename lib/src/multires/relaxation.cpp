@@ -1,14 +1,14 @@
 #include "multires/relaxation.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 #include "multires/patches.hpp"
+#include "multires/triangle_shape.hpp"
 
 namespace meshcontour::detail {
 namespace {
 
-constexpr double kGoodShape = 0.2;  // of triangles: 1 if equilateral, 0 if flat; better ones may become worse
+constexpr double kGoodShape = 0.2;  // of triangles; better ones may become worse
 constexpr double kUnfoldedShape = 0.02;
 constexpr double kTurned = 10;       // what a triangle that is turned over lacks besides
 constexpr double kLeastPart = 0.05;  // of the way to the middle of the neighbours
@@ -40,15 +40,14 @@ double Relaxation::shape(Index triangle) const {
   const auto [a, b, c] = finest_.triangles[triangle];
   const Vector x = points_[b] - points_[a], y = points_[c] - points_[a];
   const double sides = x.squaredNorm() + y.squaredNorm() + (x - y).squaredNorm();
-  if (!(sides > 0)) return 0;
   Vector normal = Vector::Zero();
   for (const Index v : {a, b, c}) {
     const Index there = places_[v].triangle;
     if (patches_[there] == fine_patches_[triangle]) normal += walk_.normal(there);
   }
   const Vector cross = x.cross(y);
-  const double size = 2 * std::numbers::sqrt3 * cross.norm() / sides;
-  return cross.dot(normal) < 0 ? -size : size;
+  const double doubled_area = cross.norm();
+  return triangle_shape(cross.dot(normal) < 0 ? -doubled_area : doubled_area, sides);
 }
 
 // What all triangles around a vertex lack to a good shape, or to one as bad as `least`.

@@ -12,7 +12,7 @@ namespace {
 
 // What became of a shell: nothing to do, a remesh with its note, or a note why there is none.
 struct Outcome {
-  std::optional<Shell> shell;
+  std::optional<Remesh> remesh;
   std::optional<Diagnostic> note;
 };
 
@@ -28,7 +28,7 @@ Outcome outcome_of(const Shell& shell, const RemeshOptions& options) {
         fmt::format("remeshed from {} to {} triangles on {} levels, at most {} apart", shell.triangles.size(),
                     remesh.shell.triangles.size(), remesh.connectivity.levels, remesh.error),
         spot};
-    out.shell = std::move(remesh.shell);
+    out.remesh = std::move(remesh);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::BadData) throw;
     out.note = {Diagnostic::Severity::Note, fmt::format("not remeshed: {}", error.what()), spot};
@@ -53,23 +53,30 @@ std::vector<double> sizes_across(const Remesh& remesh, const Shell& shell,
 
 }  // namespace
 
-Model with_remeshed_shells(const Model& model, const RemeshOptions& options, std::vector<Diagnostic>& notes) {
-  Model out = model;
+ModelRemesh remeshed_model(const Model& model, const RemeshOptions& options) {
   std::vector<Outcome> outcomes(model.shells.size());
   parallel_for(outcomes.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) outcomes[s] = outcome_of(model.shells[s], options);
   });
-  for (std::size_t s = 0; s < outcomes.size(); ++s) {
-    if (outcomes[s].shell) out.shells[s] = *std::move(outcomes[s].shell);
-    if (outcomes[s].note) notes.push_back(*std::move(outcomes[s].note));
+  ModelRemesh out;
+  for (Outcome& outcome : outcomes) {
+    out.shells.push_back(std::move(outcome.remesh));
+    if (outcome.note) out.notes.push_back(*std::move(outcome.note));
   }
   return out;
 }
 
-std::vector<double> remeshed_detail_sizes(const Shell& shell, const SubdivisionOptions& subdivide,
-                                          const RemeshOptions& options) {
+Model with_remeshed_shells(const Model& model, const ModelRemesh& remesh) {
+  Model out = model;
+  for (std::size_t s = 0; s < remesh.shells.size(); ++s) {
+    if (remesh.shells[s]) out.shells[s] = remesh.shells[s]->shell;
+  }
+  return out;
+}
+
+std::vector<double> remeshed_detail_sizes(const Shell& shell, const Remesh& remesh,
+                                          const SubdivisionOptions& subdivide) {
   constexpr double kUnknown = -1;
-  const Remesh remesh = remeshed(shell, options);
   const std::vector<double> across = sizes_across(remesh, shell, subdivide);
   std::vector<double> sizes(shell.points.size(), kUnknown);
   for (std::size_t v = 0; v < across.size(); ++v) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "multires/triangle_shape.hpp"
+
 namespace meshcontour::detail {
 namespace {
 
@@ -18,19 +20,10 @@ constexpr double kLeastTurnCosine = 0.6;  // of the turn of a curve that is stra
 constexpr double kMostSector = 0.9 * std::numbers::pi;  // between sharp edges that share a triangle
 constexpr double kRounding = 1e-12;                     // of such a shape
 
-// 1 for an equilateral triangle, 0 for a line; below 0 in the plane if it runs clockwise.
-double shape(double doubled_area, double squared_sides) {
-  return squared_sides > 0 ? 2 * std::numbers::sqrt3 * doubled_area / squared_sides : 0;
-}
-
-double shape_of(const Point& a, const Point& b, const Point& c) {
-  return shape((b - a).cross(c - a).norm(),
-               (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm());
-}
-
 double shape_of(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
   const PlanePoint x = b - a, y = c - a;
-  return shape(x.x() * y.y() - x.y() * y.x(), x.squaredNorm() + (c - b).squaredNorm() + y.squaredNorm());
+  return triangle_shape(x.x() * y.y() - x.y() * y.x(),
+                        x.squaredNorm() + (c - b).squaredNorm() + y.squaredNorm());
 }
 
 Vector normal_of(const Point& a, const Point& b, const Point& c) {
@@ -130,7 +123,8 @@ bool SelfParameterization::gather(Index v, Index kept) {
   if (found == ring_.vertices.end()) return false;
   ring_.kept = static_cast<std::size_t>(found - ring_.vertices.begin());
   if (closed) {
-    std::rotate(ring_.out.begin(), ring_.out.begin() + static_cast<std::ptrdiff_t>(ring_.kept), ring_.out.end());
+    const auto first = ring_.out.begin() + static_cast<std::ptrdiff_t>(ring_.kept);
+    std::rotate(ring_.out.begin(), first, ring_.out.end());
     std::rotate(ring_.vertices.begin(), found, ring_.vertices.end());
     ring_.kept = 0;
   }
@@ -204,8 +198,8 @@ bool SelfParameterization::flip(Index h) {
   };
   const std::array<PlanePoint, 4> plane = {PlanePoint(0, 0), unfolded(across, -1), PlanePoint(length, 0),
                                            unfolded(tip, 1)};
-  if (shape_of(plane[0], plane[1], plane[3]) < kLeastPlaneShape * shape_of(u, across, tip) ||
-      shape_of(plane[1], plane[2], plane[3]) < kLeastPlaneShape * shape_of(across, v, tip))
+  if (shape_of(plane[0], plane[1], plane[3]) < kLeastPlaneShape * triangle_shape(u, across, tip) ||
+      shape_of(plane[1], plane[2], plane[3]) < kLeastPlaneShape * triangle_shape(across, v, tip))
     return false;
   const auto face = [](Index halfedge, std::uint8_t a, std::uint8_t b, std::uint8_t c) {
     ChartSequence::Face out{halfedge / 3, {}};
@@ -272,8 +266,8 @@ bool SelfParameterization::stays_unfolded() const {
     const PlanePoint &p = plane_[i + 1], &q = plane_[j + 1];
     if (shape_of(plane_[0], p, q) < -kRounding) return false;
     if (i == ring_.kept || j == ring_.kept) continue;
-    const double in_space = shape_of(mesh_.point(ring_.vertices[ring_.kept]), mesh_.point(ring_.vertices[i]),
-                                     mesh_.point(ring_.vertices[j]));
+    const double in_space = triangle_shape(mesh_.point(ring_.vertices[ring_.kept]),
+                                           mesh_.point(ring_.vertices[i]), mesh_.point(ring_.vertices[j]));
     if (!(shape_of(kept, p, q) > kLeastPlaneShape * in_space)) return false;
   }
   return true;
@@ -285,10 +279,10 @@ bool SelfParameterization::keeps_shape(Index v, Index kept) const {
   for (const Index h : ring_.out) {
     const Index i = mesh_.end(h), j = mesh_.start(CollapseMesh::previous(h));
     const Point &p = mesh_.point(i), &q = mesh_.point(j);
-    least_before = std::min(least_before, shape_of(from, p, q));
+    least_before = std::min(least_before, triangle_shape(from, p, q));
     if (i == kept || j == kept) continue;
     if (!keeps_side(normal_of(from, p, q), normal_of(to, p, q))) return false;
-    least_after = std::min(least_after, shape_of(to, p, q));
+    least_after = std::min(least_after, triangle_shape(to, p, q));
   }
   return least_after >= least_before / 2;
 }

@@ -80,8 +80,8 @@ class Stencils {
   const MeshLevel& level_;
   BoundaryRule rule_;
   std::vector<Index> hubs_, fans_;
-  // Of each halfedge that leaves a vertex of two sharp edges or more: the triangles between the two around it,
-  // else 0. Empty for other rules than the trigonometric one.
+  // Of each halfedge that leaves a vertex of two sharp edges or more: the triangles between the two around
+  // it, else 0. Empty for other rules than the trigonometric one.
   std::vector<std::uint32_t> sectors_;
   std::vector<std::vector<double>> weights_;  // of the ring around an extraordinary vertex, by its valence
 };

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <zstd.h>
 
-#include <memory>
-
 namespace meshcontour::detail {
 namespace {
 
@@ -36,19 +34,22 @@ struct BlockWriter::Compressor {
     check(ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, level));
     check(ZSTD_CCtx_setPledgedSrcSize(context.get(), size));  // tables no larger than the block needs
     std::string out;
-    for (const std::string_view& part : parts) {
-      const ZSTD_EndDirective directive = &part == &parts.back() ? ZSTD_e_end : ZSTD_e_flush;
-      ZSTD_inBuffer input{part.data(), part.size(), 0};
-      for (std::size_t rest = 1; rest > 0;) {
-        const std::size_t begin = out.size();
-        out.resize(begin + ZSTD_CStreamOutSize());
-        ZSTD_outBuffer output{out.data() + begin, out.size() - begin, 0};
-        rest = ZSTD_compressStream2(context.get(), &output, &input, directive);
-        check(rest);
-        out.resize(begin + output.pos);
-      }
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      append(parts[i], i + 1 == parts.size() ? ZSTD_e_end : ZSTD_e_flush, out);
     }
     return out;
+  }
+
+  void append(std::string_view part, ZSTD_EndDirective directive, std::string& out) const {
+    ZSTD_inBuffer input{part.data(), part.size(), 0};
+    for (std::size_t rest = 1; rest > 0;) {
+      const std::size_t begin = out.size();
+      out.resize(begin + ZSTD_CStreamOutSize());
+      ZSTD_outBuffer output{out.data() + begin, out.size() - begin, 0};
+      rest = ZSTD_compressStream2(context.get(), &output, &input, directive);
+      check(rest);
+      out.resize(begin + output.pos);
+    }
   }
 };
 
@@ -62,8 +63,8 @@ BlockWriter::~BlockWriter() = default;
 void BlockWriter::write(BlockKind kind, std::string_view bytes) {
   for (std::size_t begin = 0; begin < bytes.size(); begin += kLargestBlock) {
     const std::string_view part = bytes.substr(begin, kLargestBlock);
-    put(kind,
-        compressor_->compressed(std::span(&part, 1), begin < kThorough ? kCompression : kFastCompression));
+    const int level = begin < kThorough ? kCompression : kFastCompression;
+    put(kind, compressor_->compressed(std::span(&part, 1), level));
   }
 }
 
@@ -80,10 +81,7 @@ void BlockWriter::put(BlockKind kind, std::string_view block) {
 }
 
 void BlockWriter::end() {
-  ByteWriter head;
-  head.byte(static_cast<std::uint8_t>(BlockKind::End));
-  head.fixed(0, 4);
-  sink_.write(head.bytes());
+  put(BlockKind::End, {});
 }
 
 BlockReader::BlockReader(std::string_view bytes, std::string_view name) : in_(bytes, name) {
@@ -109,16 +107,19 @@ std::optional<Block> BlockReader::next() {
   }
   if (size > ZSTD_compressBound(kLargestBlock)) in_.fail(fmt::format("block {} is too large", number_));
   if (size > ahead.remaining()) return std::nullopt;
-  const std::string_view stored = ahead.take(size);
   block.kind = static_cast<BlockKind>(kind);
-  block.bytes.resize(kLargestBlock);
-  const std::size_t length =
-      ZSTD_decompress(block.bytes.data(), block.bytes.size(), stored.data(), stored.size());
-  if (ZSTD_isError(length))
-    in_.fail(fmt::format("block {} is damaged ({})", number_, ZSTD_getErrorName(length)));
-  block.bytes.resize(length);
+  block.bytes = decompressed(ahead.take(size));
   in_ = ahead;
   return block;
+}
+
+std::string BlockReader::decompressed(std::string_view stored) const {
+  std::string bytes(kLargestBlock, '\0');
+  const std::size_t length = ZSTD_decompress(bytes.data(), bytes.size(), stored.data(), stored.size());
+  if (ZSTD_isError(length))
+    in_.fail(fmt::format("block {} is damaged ({})", number_, ZSTD_getErrorName(length)));
+  bytes.resize(length);
+  return bytes;
 }
 
 }  // namespace meshcontour::detail

@@ -27,6 +27,7 @@ enum class BlockKind : std::uint8_t { Base = 'B', Details = 'D', End = 'E' };
 /// No block is larger before compression.
 inline constexpr std::size_t kLargestBlock = std::size_t{1} << 18;
 
+/// Writes a stream block by block.
 class BlockWriter {
  public:
   /// Writes signature and version.
@@ -39,6 +40,8 @@ class BlockWriter {
 
   /// Writes parts, together no larger than the largest block, as one block.
   void write(BlockKind kind, std::span<const std::string_view> parts);
+
+  /// Writes the end block, behind which nothing may follow.
   void end();
 
  private:
@@ -49,13 +52,17 @@ class BlockWriter {
   std::unique_ptr<Compressor> compressor_;
 };
 
+/// A block as it was before compression.
 struct Block {
   BlockKind kind = BlockKind::End;
   std::string bytes;
 };
 
+/// Takes a stream apart. Its errors name the stream and the block's number.
 class BlockReader {
  public:
+  /// @param bytes  of the stream or its beginning; outlive this.
+  /// @param name   of the stream, for messages.
   /// @throws Error  BadData if signature or version are wrong.
   BlockReader(std::string_view bytes, std::string_view name);
 
@@ -65,8 +72,10 @@ class BlockReader {
   std::optional<Block> next();
 
  private:
+  std::string decompressed(std::string_view stored) const;
+
   ByteReader in_;
-  std::size_t number_ = 0;
+  std::size_t number_ = 0;  // of the last block, from 1
 };
 
 }  // namespace meshcontour::detail

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "meshcontour/parallel.hpp"
 #include "multires/block_system.hpp"
 #include "multires/level.hpp"
 #include "multires/surface_samples.hpp"
+#include "multires/triangle_shape.hpp"
 #include "multires/triangle_tree.hpp"
 
 namespace meshcontour::detail {
@@ -17,8 +19,8 @@ constexpr double kTangentialShare = 0.05;  // of a distance within the surface
 constexpr double kPull = 1e-3;             // towards where a vertex is, beside the mean share of a vertex
 constexpr double kLeastCosine = 0.5;       // of the turn of a triangle in a step
 constexpr double kLeastSupport = 3;        // samples, by their weights at a vertex that moves
-constexpr double kLeastShape = 0.04;       // of a triangle that a flip makes; an equilateral one has 0.29
-constexpr double kGain = 0.99;             // of the error before a flip that may remain
+constexpr double kLeastShape = 0.08 * std::numbers::sqrt3;  // of a triangle that a flip makes
+constexpr double kGain = 0.99;                              // of the error before a flip that may remain
 constexpr int kFlipRounds = 4, kMostSteps = 10, kMostAttempts = 50;
 constexpr std::size_t kGrain = 1 << 10;
 
@@ -26,11 +28,8 @@ Vector normal_of(const Corners& t) {
   return (t[1] - t[0]).cross(t[2] - t[0]);
 }
 
-// Twice the area beside the squares of the sides.
 double shape(const Corners& t) {
-  const double sides =
-      (t[1] - t[0]).squaredNorm() + (t[2] - t[1]).squaredNorm() + (t[0] - t[2]).squaredNorm();
-  return sides > 0 ? normal_of(t).norm() / sides : 0;
+  return triangle_shape(t[0], t[1], t[2]);
 }
 
 double squared_distance(const Corners& t, const Point& p) {
@@ -59,6 +58,7 @@ class SurfaceFit {
     for (Index v = 0; v < level.vertex_count; ++v) free_.push_back(level.sharp_edges[v] == 0);
     for (Index h = 0; h < level.twins.size(); ++h) smooth_.push_back(level.across(h));
     twins_ = std::move(level.twins);
+    valences_ = std::move(level.valences);
   }
 
   void run(int rounds) {
@@ -163,9 +163,11 @@ class SurfaceFit {
     return one <= two ? std::pair(one, std::size_t{0}) : std::pair(two, std::size_t{1});
   }
 
-  // Whether the tips on both sides of an edge have an edge already.
+  // Whether the tips on both sides of an edge have an edge already; the one with fewer edges is gone round.
   bool adjacent(Index h) const {
-    const Index begin = MeshLevel::previous(h), tip = start(MeshLevel::previous(twins_[h]));
+    Index begin = MeshLevel::previous(h), other = MeshLevel::previous(twins_[h]);
+    if (valences_[start(other)] < valences_[start(begin)]) std::swap(begin, other);
+    const Index tip = start(other);
     const auto has = [&](Index g) {
       return start(MeshLevel::next(g)) == tip || start(MeshLevel::previous(g)) == tip;
     };
@@ -191,6 +193,8 @@ class SurfaceFit {
       twins[k] = twins_[old[k]];
       smooth[k] = smooth_[old[k]];
     }
+    for (const Index v : {quad.a, quad.b}) --valences_[v];
+    for (const Index v : {quad.c, quad.d}) ++valences_[v];
     triangles_[t] = {quad.a, quad.d, quad.c};
     triangles_[u] = {quad.d, quad.b, quad.c};
     const std::array<Index, 4> places = {3 * t, 3 * t + 2, 3 * u, 3 * u + 1};
@@ -241,7 +245,9 @@ class SurfaceFit {
           sample.share * (kTangential * Eigen::Matrix3d::Identity() +
                           (1 - kTangential) * sample.normal * sample.normal.transpose());
       const Vector weights = weights_at(triangle, foot);
-      for (std::size_t k = 0; k < 3; ++k) support[triangles_[sample.triangle][k]] += weights[static_cast<Eigen::Index>(k)];
+      for (std::size_t k = 0; k < 3; ++k) {
+        support[triangles_[sample.triangle][k]] += weights[static_cast<Eigen::Index>(k)];
+      }
       system.add(sample.triangle, weights, metric, sample.point - foot);
     }
     std::vector<Vector> shifts = system.solve();
@@ -283,10 +289,11 @@ class SurfaceFit {
   std::vector<Triangle>& triangles_;
   std::vector<SurfaceSample> samples_;
   unsigned threads_;
-  std::vector<bool> free_;           // one a vertex
-  std::vector<Index> twins_;         // of halfedges, kNone at borders
-  std::vector<Index> smooth_;        // the same, kNone at sharp edges too
-  std::vector<Index> first_, next_;  // the samples of a triangle as a list
+  std::vector<bool> free_;               // one a vertex
+  std::vector<std::uint32_t> valences_;  // of vertices
+  std::vector<Index> twins_;             // of halfedges, kNone at borders
+  std::vector<Index> smooth_;            // the same, kNone at sharp edges too
+  std::vector<Index> first_, next_;      // the samples of a triangle as a list
 };
 
 }  // namespace

@@ -164,8 +164,9 @@ double TriangleTree::squared_distance(const Node& node, const Point& p) const {
   return std::max(node.box.squaredExteriorDistance(p), beyond * beyond);
 }
 
-// The direction in which to halve a set of triangles: the side of the box of their centres that is longest; of
-// long ones along them or across, in which the centres are farther apart beside the extents of the triangles.
+// The direction in which to halve a set of triangles: the side of the box of their centres that is longest;
+// of long ones along them or across, in which the centres are farther apart beside the extents of the
+// triangles.
 Vector TriangleTree::cut_direction(const Directions& directions, std::span<const Index> triangles,
                                    const std::vector<Point>& centres) const {
   if (directions.aligned) {

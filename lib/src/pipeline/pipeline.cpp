@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <optional>
 
 #include "meshcontour/cleaning.hpp"
 #include "meshcontour/graph.hpp"
@@ -29,11 +30,26 @@ View view_of(const Job& job, const OutputRequest& output) {
   return output.view.value_or(job.render.view);
 }
 
-RemeshOptions remesh_options(const Job& job) {
-  RemeshOptions options;
-  options.threads = job.subdivide.threads;
-  return options;
-}
+// The remeshes of a model, made when they are asked for first: streams and details share them.
+class Remeshes {
+ public:
+  Remeshes(const Job& job, const Model& model) : job_(job), model_(model) {}
+
+  /// Without any if the job wants none.
+  const ModelRemesh& get() {
+    if (!made_) {
+      RemeshOptions options;
+      options.threads = job_.subdivide.threads;
+      made_ = job_.remesh ? remeshed_model(model_, options) : ModelRemesh{};
+    }
+    return *made_;
+  }
+
+ private:
+  const Job& job_;
+  const Model& model_;
+  std::optional<ModelRemesh> made_;
+};
 
 // The outputs of a job, opened before any work is done.
 class Targets {
@@ -45,11 +61,11 @@ class Targets {
   }
 
   /// As the model is at the time.
-  void write_wavelets(const Model& model, std::vector<Diagnostic>& notes) {
+  void write_wavelets(const Model& model, const ModelRemesh& remesh, std::vector<Diagnostic>& notes) {
     if (wavelets_.empty()) return;
+    std::ranges::copy(remesh.notes, std::back_inserter(notes));
     StringSink stream;
-    write_wavelet_stream(job_.remesh ? with_remeshed_shells(model, remesh_options(job_), notes) : model,
-                         job_.wavelet, stream, notes);
+    write_wavelet_stream(with_remeshed_shells(model, remesh), job_.wavelet, stream, notes);
     for (Sink* sink : wavelets_) sink->write(stream.text);
   }
 
@@ -116,27 +132,28 @@ void find_lines(const Job& job, Run& run) {
   run.timings.count("lines", run.model.tree.size() + run.model.path.size());
 }
 
-void find_details(const Job& job, Run& run) {
+void find_details(const Job& job, Remeshes& remeshes, Run& run) {
   run.timings.measure("detail", [&] {
-    for (Shell& shell : run.model.shells) {
+    for (std::size_t s = 0; s < run.model.shells.size(); ++s) {
+      Shell& shell = run.model.shells[s];
       shell.details = detail_sizes(shell, job.subdivide);
-      if (!job.remesh || !shell.details.empty() || shell.triangles.empty()) continue;
-      try {
-        shell.details = remeshed_detail_sizes(shell, job.subdivide, remesh_options(job));
-      } catch (const Error& error) {
-        if (error.code() != ErrorCode::BadData) throw;
-      }
+      if (!job.remesh || !shell.details.empty()) continue;
+      const std::optional<Remesh>& remesh = remeshes.get().shells[s];
+      if (remesh) shell.details = remeshed_detail_sizes(shell, *remesh, job.subdivide);
     }
   });
-  const auto plain = std::ranges::count_if(run.model.shells, [](const Shell& shell) { return shell.details.empty(); });
+  const auto plain =
+      std::ranges::count_if(run.model.shells, [](const Shell& shell) { return shell.details.empty(); });
   if (plain == 0) return;
-  run.model.diagnostics.push_back({Diagnostic::Severity::Warning,
-                                   "layer detail: shell whose triangles come from no subdivision has no details",
-                                   {},
-                                   static_cast<std::size_t>(plain)});
+  run.model.diagnostics.push_back(
+      {Diagnostic::Severity::Warning,
+       "layer detail: shell whose triangles come from no subdivision has no details",
+       {},
+       static_cast<std::size_t>(plain)});
 }
 
-void prepare_model(const Job& job, Targets& targets, Run& run) {
+// Read, segmented and, where asked for, subdivided.
+void make_model(const Job& job, Run& run) {
   run.timings.measure("read", [&] {
     ReadOptions options = job.read;
     options.net.mend = options.net.mend || job.repair;
@@ -158,14 +175,26 @@ void prepare_model(const Job& job, Targets& targets, Run& run) {
   const Counts counts = counts_of(run.model, {}, {});
   run.timings.count("segment", counts.patches);
   if (job.subdivisions > 0) run.timings.count("subdivide", counts.triangles);
+}
+
+void analyse_model(const Job& job, Targets& targets, Run& run) {
+  Remeshes remeshes(job, run.model);
   if (!job.wavelets.empty()) {
-    run.timings.measure("wavelet", [&] { targets.write_wavelets(run.model, run.model.diagnostics); });
-    run.timings.count("wavelet", counts.triangles);
+    run.timings.measure("wavelet",
+                        [&] { targets.write_wavelets(run.model, remeshes.get(), run.model.diagnostics); });
+    run.timings.count("wavelet", counts_of(run.model, {}, {}).triangles);
   }
-  if (std::ranges::find(job.render.layers, Layer::Detail) != job.render.layers.end()) find_details(job, run);
+  if (std::ranges::find(job.render.layers, Layer::Detail) != job.render.layers.end())
+    find_details(job, remeshes, run);
+}
+
+void prepare_model(const Job& job, Targets& targets, Run& run) {
+  make_model(job, run);
+  analyse_model(job, targets, run);
   if (job.simplify.goal != SimplifyGoal::None) {
+    const std::size_t triangles = counts_of(run.model, {}, {}).triangles;
     run.timings.measure("simplify", [&] { run.simplifications = simplify_model(run.model, job.simplify); });
-    run.timings.count("simplify", counts.triangles);
+    run.timings.count("simplify", triangles);
     detail::report_simplifications(job.simplify, run.simplifications, run.model);
   }
   find_lines(job, run);
@@ -218,7 +247,8 @@ Pictures draw(const Job& job, Run& run) {
         "render", [&] { return render(run.model, run.boundaries, run.contours, options); });
     run.timings.measure("write", [&] { pictures.emplace(options.view, encode_png(image)); });
   }
-  if (!pictures.empty()) run.timings.count("render", pictures.size() * counts_of(run.model, {}, {}).triangles);
+  if (!pictures.empty())
+    run.timings.count("render", pictures.size() * counts_of(run.model, {}, {}).triangles);
   return pictures;
 }
 

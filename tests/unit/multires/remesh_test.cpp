@@ -259,8 +259,11 @@ TEST_CASE("simplify_shell: few triangles are reached by a coarser base mesh", "[
 TEST_CASE("with_remeshed_shells: others stay, and notes say which", "[multires]") {
   Model model;
   model.shells = {subdivided(surfaces::octahedron(), 2), sample(1), dirty::fin()};
-  std::vector<Diagnostic> notes;
-  const Model out = with_remeshed_shells(model, {}, notes);
+  const ModelRemesh remesh = remeshed_model(model);
+  const Model out = with_remeshed_shells(model, remesh);
+  const std::vector<Diagnostic>& notes = remesh.notes;
+  REQUIRE(remesh.shells.size() == 3);
+  CHECK(remesh.shells[1]->shell.points == out.shells[1].points);
   CHECK(out.shells[0].triangles == model.shells[0].triangles);
   CHECK(find_subdivision(out.shells[1]).levels > 0);
   CHECK(out.shells[2].triangles == model.shells[2].triangles);
@@ -273,7 +276,7 @@ TEST_CASE("remeshed_detail_sizes: large around a dent, small elsewhere", "[multi
   Shell shell = surfaces::height_field(32, false, 0);
   const Index dent = 16 * 33 + 8;
   shell.points[dent].z() = 0.05;
-  const std::vector<double> sizes = remeshed_detail_sizes(shell, {});
+  const std::vector<double> sizes = remeshed_detail_sizes(shell, remeshed(shell));
   REQUIRE(sizes.size() == shell.points.size());
   CHECK(sizes[dent] > 1e-3);
   for (std::size_t v = 0; v < sizes.size(); ++v) {
