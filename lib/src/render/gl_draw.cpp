@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <initializer_list>
 
 #include "render/drawn_region.hpp"
 #include "render/gl_framebuffer.hpp"
 #include "render/gl_readback.hpp"
+#include "render/shading.hpp"
 
 namespace meshcontour::detail {
 namespace {
@@ -84,72 +84,59 @@ void set_view(const Scene& scene, const Tile& tile) {
   }
 }
 
-void set_state(const Scene& scene, bool with_depth) {
-  const Vertex* vertices = scene.vertices.data();
+// Vertices in their final colours, a part of a range at a time: it stays in the cache. Whole triangles and lines.
+using Part = std::array<ShadedVertex, 6 << 9>;
+
+void set_state(const Part& part, bool with_depth) {
   glEnableClientState(GL_VERTEX_ARRAY);
-  glEnableClientState(GL_NORMAL_ARRAY);
   glEnableClientState(GL_COLOR_ARRAY);
-  glVertexPointer(3, GL_FLOAT, sizeof(Vertex), &vertices->position);
-  glNormalPointer(GL_SHORT, sizeof(Vertex), &vertices->normal);
-  glColorPointer(4, GL_UNSIGNED_BYTE, sizeof(Vertex), &vertices->color);
-  constexpr std::array<GLfloat, 4> direction = {-0.25F, 0.35F, 1.0F,
-                                                0.0F};  // over the viewer's left shoulder
-  constexpr std::array<GLfloat, 4> none = {0, 0, 0, 1};
-  glMatrixMode(GL_MODELVIEW);
-  glLoadIdentity();
-  glLightfv(GL_LIGHT0, GL_POSITION, direction.data());
-  glLightfv(GL_LIGHT0, GL_AMBIENT, none.data());
-  glLightfv(GL_LIGHT0, GL_SPECULAR, none.data());
-  glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, GL_TRUE);
-  glColorMaterial(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE);
-  for (const GLenum what : std::initializer_list<GLenum>{GL_COLOR_MATERIAL, GL_LIGHTING, GL_LIGHT0, GL_NORMALIZE,
-                                                         GL_POLYGON_OFFSET_FILL}) {
-    glEnable(what);
-  }
+  glVertexPointer(3, GL_FLOAT, sizeof(ShadedVertex), &part[0].position);
+  glColorPointer(4, GL_FLOAT, sizeof(ShadedVertex), &part[0].color);
+  glEnable(GL_POLYGON_OFFSET_FILL);
   with_depth ? glEnable(GL_DEPTH_TEST) : glDisable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
 }
 
-// Lines and points go through the same shaders as faces, under a light that gives them their own colour.
-void set_light(bool lit) {
-  const GLfloat ambient = lit ? 0.36F : 1.0F, diffuse = lit ? 0.64F : 0.0F;
-  glLightModelfv(GL_LIGHT_MODEL_AMBIENT, std::array{ambient, ambient, ambient, 1.0F}.data());
-  glLightfv(GL_LIGHT0, GL_DIFFUSE, std::array{diffuse, diffuse, diffuse, 1.0F}.data());
-}
-
-void draw_range(const VertexRange& range, const std::vector<Placement>& placements, double bias, GLenum mode) {
+// Faces, lines and points go through the same shaders.
+void draw_range(const Scene& scene, const Batch& batch, const VertexRange& range, GLenum mode, Part& part) {
+  const bool lit = scene.lit && mode == GL_TRIANGLES;
+  const bool perspective = scene.projection.row(3) != Eigen::RowVector4d(0, 0, 0, 1);
+  const std::span<const Vertex> vertices = std::span(scene.vertices).subspan(range.first, range.count);
+  const bool once = !lit && vertices.size() <= part.size();
+  if (once) keep_colors(vertices, part);
   glMatrixMode(GL_MODELVIEW);
-  for (const Placement& placement : placements) {
+  for (const Placement& placement : scene.frames[batch.frame]) {
     Eigen::Matrix4f to_eye = placement.to_eye;
-    to_eye(2, 3) = static_cast<float>(placement.depth + bias);
+    to_eye(2, 3) = static_cast<float>(placement.depth + batch.bias);
     glLoadMatrixf(to_eye.data());
-    glFrontFace(placement.mirrored ? GL_CW : GL_CCW);
-    // Large ranges go in parts, which hold whole triangles and lines: counts are ints.
-    constexpr std::size_t kPart = 6 << 24;
-    for (std::size_t done = 0; done < range.count; done += kPart) {
-      glDrawArrays(mode, static_cast<GLint>(range.first + done),
-                   static_cast<GLsizei>(std::min(kPart, range.count - done)));
+    const FaceLight light(placement, perspective);
+    for (std::size_t done = 0; done < vertices.size(); done += part.size()) {
+      const auto some = vertices.subspan(done, std::min(part.size(), vertices.size() - done));
+      if (lit) {
+        light.shade(some, part);
+      } else if (!once) {
+        keep_colors(some, part);
+      }
+      glDrawArrays(mode, 0, static_cast<GLsizei>(some.size()));
     }
   }
 }
 
-void draw_batch(const Scene& scene, const Batch& batch) {
-  const auto& placements = scene.frames[batch.frame];
+void draw_batch(const Scene& scene, const Batch& batch, Part& part) {
   const auto size = std::min(static_cast<float>(scene.samples_across) * batch.size, kWidestLine);
-  set_light(scene.lit && batch.kind == Batch::Kind::Triangles);
   switch (batch.kind) {
     case Batch::Kind::Triangles:
-      draw_range(batch.range, placements, batch.bias, GL_TRIANGLES);
+      draw_range(scene, batch, batch.range, GL_TRIANGLES, part);
       break;
     case Batch::Kind::Lines:
       glLineWidth(size);
-      draw_range(batch.range, placements, batch.bias, GL_LINES);
-      draw_range(batch.chords, placements, batch.bias, GL_LINES);
+      draw_range(scene, batch, batch.range, GL_LINES, part);
+      draw_range(scene, batch, batch.chords, GL_LINES, part);
       break;
     case Batch::Kind::Points:
       // Square: after GL_POINT_SMOOTH llvmpipe forgets the polygon offset.
       glPointSize(size);
-      draw_range(batch.range, placements, batch.bias, GL_POINTS);
+      draw_range(scene, batch, batch.range, GL_POINTS, part);
       break;
   }
 }
@@ -176,25 +163,25 @@ float widest_half(const Scene& scene) {
   return static_cast<float>(scene.samples_across) * size / 2;
 }
 
-void draw_batches(const Scene& scene, std::size_t first, std::size_t end) {
-  for (std::size_t i = first; i < end; ++i) draw_batch(scene, scene.batches[i]);
+void draw_batches(const Scene& scene, std::size_t first, std::size_t end, Part& part) {
+  for (std::size_t i = first; i < end; ++i) draw_batch(scene, scene.batches[i], part);
   glFinish();
   check_gl("drawing");
 }
 
-void draw_tile(const Scene& scene, const Tile& tile, bool with_depth) {
+void draw_tile(const Scene& scene, const Tile& tile, bool with_depth, Part& part) {
   set_view(scene, tile);
   glPolygonOffset(1 + widest_half(scene), 1);
   const auto& color = scene.background;
   glClearColor(static_cast<GLfloat>(color[0]) / 255, static_cast<GLfloat>(color[1]) / 255,
                static_cast<GLfloat>(color[2]) / 255, static_cast<GLfloat>(color[3]) / 255);
   glClear(with_depth ? GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT : GL_COLOR_BUFFER_BIT);
-  draw_batches(scene, 0, scene.model_batches);
+  draw_batches(scene, 0, scene.model_batches, part);
 }
 
 // What lies over the model, and whether there was anything.
-bool draw_legend(const Scene& scene) {
-  draw_batches(scene, scene.model_batches, scene.batches.size());
+bool draw_legend(const Scene& scene, Part& part) {
+  draw_batches(scene, scene.model_batches, scene.batches.size(), part);
   return scene.model_batches < scene.batches.size();
 }
 
@@ -244,15 +231,16 @@ bool draw_scene(Scene& scene, int largest_tile, NurbsTessellator& tessellator, I
   const int height = std::min(side - side % across, region.height());
   bind_framebuffer(width + 2 * margin, height + 2 * margin);
   const bool with_depth = needs_depth(scene);
-  set_state(scene, with_depth);
+  const auto vertices = std::make_unique<Part>();
+  set_state(*vertices, with_depth);
   bool something = false;
   for (int bottom = region.bottom; bottom < region.top; bottom += height) {
     for (int left = region.left; left < region.right; left += width) {
-      draw_tile(scene, {left, bottom, width, height, margin}, with_depth);
+      draw_tile(scene, {left, bottom, width, height, margin}, with_depth, *vertices);
       const Readback part{left / across, bottom / across, width / across, height / across, margin, across,
                           scene.background};
       something = average_into(image, part) || something;
-      if (draw_legend(scene)) average_into(image, part);
+      if (draw_legend(scene, *vertices)) average_into(image, part);
     }
   }
   return something;

@@ -323,3 +323,37 @@ TEST_CASE("render: sharp edges inside a patch are drawn with the edges", "[rende
   model.shells[0].creases = {{0, 2}};
   CHECK(share_of(model, Layer::Edges, {}, View::Top) > 1.2 * without);
 }
+
+TEST_CASE("render: a face towards the viewer is lit by the light's cosine, on either side", "[render]") {
+  const double cosine = 1 / Vector(-0.25, 0.35, 1).norm();
+  const int expected = static_cast<int>(std::lround(255 * (0.36 + 0.64 * cosine)));
+  Model model = placed({rectangle({-5, -5, 0}, {5, 5, 0}, kWhite)});
+  const View view = GENERATE(View::Top, View::Bottom, View::Report);
+  RenderOptions options = small({Layer::Mesh}, view);
+  options.color_by = ColorBy::File;
+  if (view == View::Report) model.instances[0].placement = view_axes(view).transpose();
+  SECTION("as it is") {
+  }
+  SECTION("stretched and mirrored") {
+    model.instances[0].placement.linear() *= Vector(-3, 2, 0.01).asDiagonal();
+  }
+  SECTION("flattened") {
+    model.instances[0].placement.linear() *= Vector(1, 1, 0).asDiagonal();
+  }
+  SECTION("seen from behind") {
+    model.instances[0].placement.linear() *= Vector(1, -1, -1).asDiagonal();
+  }
+  const Rgba color = pixel(picture(model, options), 80, 60);
+  const int red = view == View::Report ? static_cast<int>(std::lround(230 / 255.0 * expected)) : expected;  // its own
+  CHECK(std::abs(color.red - red) <= 1);
+}
+
+TEST_CASE("render: a slanting face is lit by the angle of its normal", "[render]") {
+  const Vector light = Vector(-0.25, 0.35, 1).normalized();
+  Model model = placed({rectangle({-5, -5, 0}, {5, 5, 0}, kWhite)});
+  const double angle = GENERATE(-1.0, -0.5, 0.4, 1.1);
+  model.instances[0].placement = Eigen::AngleAxisd(angle, Vector(1, 2, 0).normalized());
+  const double cosine = (model.instances[0].placement.linear() * Vector::UnitZ()).dot(light);
+  const int expected = static_cast<int>(std::lround(255 * (0.36 + 0.64 * std::max(cosine, 0.0))));
+  CHECK(std::abs(pixel(picture(model, small({Layer::Mesh}, View::Top)), 80, 60).red - expected) <= 1);
+}
