@@ -11,7 +11,7 @@ namespace {
 using namespace meshcontour;
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr std::size_t kMostPoints = 40, kMostOfLong = 160;  // of one curve
+constexpr std::size_t kMostPoints = 28, kMostOfLong = 120;  // of one curve
 
 // Draws a curve: each operation is a byte, three bits what and five how often, and mostly one argument.
 class Turtle {
@@ -227,7 +227,7 @@ FitModel open_chain(Source& source, std::size_t most) {
 FitModel fit_model_of(Source& source) {
   const std::uint8_t layout = source.byte(), size = source.byte(), rounding = source.byte();
   const std::size_t most = layout & 0x80 ? kMostOfLong : kMostPoints;
-  const std::size_t copies = 1 + (layout >> 5) % 4;
+  const std::size_t copies = (layout & 0x60) == 0x60 ? 3 : 1;
   const bool own = layout & 0x10;
   FitModel result;
   if (layout % 5 == 4) {
