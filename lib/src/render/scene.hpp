@@ -13,9 +13,8 @@
 
 namespace meshcontour::detail {
 
-/// A corner of a triangle, an end of a line or a point. One layout for all, in one array: another layout or
-/// array would have the rasterizer compile further shaders, which costs more than drawing a small model.
-/// Positions are in a frame of the shell's own, centred and scaled to [-1, 1].
+/// A corner of a triangle, an end of a line or a point. One layout for all, in one array. Positions are in a frame of
+/// the shell's own, centred and scaled to [-1, 1].
 struct Vertex {
   std::array<float, 3> position;
   std::array<std::int16_t, 4> normal{0, 0, 32767,
