@@ -130,8 +130,8 @@ struct Edge {
 // Each edge once, of the first patch that has it: lines at one place would show in turns.
 void make_unique(std::vector<Edge>& edges) {
   std::ranges::sort(edges);
-  const auto repeated = std::ranges::unique(edges, std::equal_to<>(), &Edge::ends);
-  edges.erase(repeated.begin(), repeated.end());
+  const auto same_ends = [](const Edge& a, const Edge& b) { return a.ends == b.ends; };
+  edges.erase(std::unique(edges.begin(), edges.end(), same_ends), edges.end());
 }
 
 // Lines of the patches' colours, or all of one.

@@ -24,7 +24,7 @@ Shell shell_of(std::vector<std::vector<Triangle>> patches, std::size_t points) {
 }
 
 Triangle lowest_first(Triangle t) {
-  std::ranges::rotate(t, std::ranges::min_element(t));
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;
 }
 
