@@ -120,12 +120,13 @@ class SmallPatch {
   }
 
   // Each finds its place by counting the smaller ones, which for so few is faster than comparing and moving.
+  // Numbers with a sign are compared several at once; the flipped bit keeps the order.
   void sort_by_ranks() {
     std::array<Number, kMost> numbers;
     std::array<std::int32_t, kMost> keys;
     for (Bits open = open_; open != 0; open &= open - 1) {
       numbers[size_] = static_cast<Number>(std::countr_zero(open));
-      keys[size_] = static_cast<std::int32_t>(vertices_[numbers[size_]]);
+      keys[size_] = static_cast<std::int32_t>(vertices_[numbers[size_]] ^ 0x80000000U);
       ++size_;
     }
     for (std::size_t i = 0; i < size_; ++i) {
