@@ -40,7 +40,8 @@ std::vector<FileJob> make_jobs(const CommandLine& line, const std::vector<std::s
   return jobs;
 }
 
-// What a worker answered, or what became of it; an answer that cannot be read is no reason to lose the other files.
+// What a worker answered, or what became of it; an answer that cannot be read is no reason to lose the other
+// files.
 Outcome outcome_of(const FileJob& job, const TaskResult& result, const CommandLine& line) {
   const auto failed = [&](ErrorCode code, const std::string& what) {
     Outcome outcome;
@@ -109,7 +110,8 @@ unsigned worker_count(const CommandLine& line, std::size_t tasks) {
   return static_cast<unsigned>(std::min<std::size_t>(wanted, tasks));
 }
 
-void run_jobs(std::vector<FileJob> jobs, const CommandLine& line, Collector& collector, const Journal& journal) {
+void run_jobs(std::vector<FileJob> jobs, const CommandLine& line, Collector& collector,
+              const Journal& journal) {
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     if (!journal.holds(jobs[i])) {
@@ -171,10 +173,12 @@ int run(const CommandLine& line) {
   run_jobs(jobs, line, collector, journal);
   reports.write(collector.reports());
 
-  const auto failures = std::ranges::count(collector.reports(), FileReport::Outcome::Failed, &FileReport::outcome);
+  const auto failures =
+      std::ranges::count(collector.reports(), FileReport::Outcome::Failed, &FileReport::outcome);
   if (jobs.size() == 1) return collector.reports().front().exit_code;
   if (line.verbosity >= 0) {
-    const auto skipped = std::ranges::count(collector.reports(), FileReport::Outcome::Skipped, &FileReport::outcome);
+    const auto skipped =
+        std::ranges::count(collector.reports(), FileReport::Outcome::Skipped, &FileReport::outcome);
     fmt::print(stderr, "meshcontour: {} inputs: {} done, {} failed{}\n", jobs.size(),
                static_cast<std::ptrdiff_t>(jobs.size()) - failures - skipped, failures,
                skipped > 0 ? fmt::format(", {} were up to date", skipped) : "");

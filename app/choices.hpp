@@ -22,18 +22,18 @@ template <class T, std::size_t N>
 using Choices = std::array<std::pair<std::string_view, T>, N>;
 
 inline constexpr Choices<Layer, 13> kLayers = {{{"mesh", Layer::Mesh},
-                                               {"edges", Layer::Edges},
-                                               {"curves", Layer::Curves},
-                                               {"wireframe", Layer::Wireframe},
-                                               {"points", Layer::Points},
-                                               {"control", Layer::Control},
-                                               {"frames", Layer::Frames},
-                                               {"detail", Layer::Detail},
-                                               {"annotations", Layer::Annotations},
-                                               {"tree", Layer::Tree},
-                                               {"path", Layer::Path},
-                                               {"axes", Layer::Axes},
-                                               {"scale", Layer::Scale}}};
+                                                {"edges", Layer::Edges},
+                                                {"curves", Layer::Curves},
+                                                {"wireframe", Layer::Wireframe},
+                                                {"points", Layer::Points},
+                                                {"control", Layer::Control},
+                                                {"frames", Layer::Frames},
+                                                {"detail", Layer::Detail},
+                                                {"annotations", Layer::Annotations},
+                                                {"tree", Layer::Tree},
+                                                {"path", Layer::Path},
+                                                {"axes", Layer::Axes},
+                                                {"scale", Layer::Scale}}};
 inline constexpr Choices<View, 8> kViews = {{{"iso", View::Iso},
                                              {"front", View::Front},
                                              {"back", View::Back},
@@ -69,8 +69,9 @@ inline constexpr Choices<BoundaryRule, 2> kBoundaryRules = {
     {{"reflect", BoundaryRule::Reflect}, {"trig", BoundaryRule::Trigonometric}}};
 inline constexpr Choices<AttributeRule, 2> kAttributeRules = {
     {{"midpoint", AttributeRule::Midpoint}, {"butterfly", AttributeRule::Butterfly}}};
-inline constexpr Choices<SimplifyMethod, 3> kSimplifyMethods = {
-    {{"auto", SimplifyMethod::Automatic}, {"wavelet", SimplifyMethod::Wavelet}, {"qem", SimplifyMethod::Qem}}};
+inline constexpr Choices<SimplifyMethod, 3> kSimplifyMethods = {{{"auto", SimplifyMethod::Automatic},
+                                                                 {"wavelet", SimplifyMethod::Wavelet},
+                                                                 {"qem", SimplifyMethod::Qem}}};
 inline constexpr Choices<SimplifyGoal, 3> kSimplifyGoals = {
     {{"error", SimplifyGoal::Error}, {"ratio", SimplifyGoal::Ratio}, {"triangles", SimplifyGoal::Triangles}}};
 inline constexpr Choices<FrameMethod, 3> kFrameMethods = {{{"rmf", FrameMethod::RotationMinimizing},
@@ -82,7 +83,8 @@ inline constexpr Choices<ObjContent, 4> kObjContents = {{{"polylines", ObjConten
                                                          {"curves", ObjContent::Curves},
                                                          {"tree", ObjContent::Tree},
                                                          {"path", ObjContent::Path}}};
-inline constexpr Choices<WrlContent, 2> kWrlContents = {{{"tree", WrlContent::Tree}, {"path", WrlContent::Path}}};
+inline constexpr Choices<WrlContent, 2> kWrlContents = {
+    {{"tree", WrlContent::Tree}, {"path", WrlContent::Path}}};
 inline constexpr Choices<DxfContent, 2> kDxfContents = {
     {{"curves", DxfContent::Curves}, {"polyline", DxfContent::Polyline}}};
 inline constexpr Choices<StepSchema, 2> kStepSchemas = {

@@ -52,8 +52,9 @@ void add_output_options(Group group, CommandLine& line) {
   const auto add_mesh = [&line](const std::string& path) { line.meshes.push_back(path); };
   group.add_each("--save-mesh", "FILE", add_mesh, "Write the mesh, repeatable: .off, .obj, .stl, .ply, .net");
   const auto add_wavelet = [&line](const std::string& path) { line.wavelets.push_back(path); };
-  group.add_each("--save-wavelet", "FILE", add_wavelet,
-                 "Write a progressive wavelet stream (.mcw), repeatable; it can be read back, whole or in part");
+  group.add_each(
+      "--save-wavelet", "FILE", add_wavelet,
+      "Write a progressive wavelet stream (.mcw), repeatable; it can be read back, whole or in part");
   const auto parse_precision = [&line](const std::string& text) {
     line.job.wavelet.precision = parse_positive(text, "--wavelet-precision");
     if (line.job.wavelet.precision >= 1) refuse("--wavelet-precision", text, "a share below 1");
@@ -108,7 +109,8 @@ void add_model_options(Group group, CommandLine& line) {
   group.add_choice("--frames", job.read.sweep.frames, kFrameMethods, "Frames along the curves of .swp files");
   group.add_flag("--caps", job.read.sweep.caps, "Close the open ends of swept surfaces");
   group.add_flag("--net-normalise", job.read.net.normalise, "Centre a .net and scale it to 6");
-  group.add_flag("--strict-net", job.read.net.strict, "Points of a .net have 3 to 16 edges, or it is refused");
+  group.add_flag("--strict-net", job.read.net.strict,
+                 "Points of a .net have 3 to 16 edges, or it is refused");
   const auto parse_patches = [&line](const std::string& text) {
     line.job.selection.patches = parse_ranges(text, "--patches");
   };
@@ -120,7 +122,8 @@ void add_model_options(Group group, CommandLine& line) {
     };
     group.add_parsed(name, "VERTEX", parse, help);
   };
-  add_end("--path-from", line.job.path_from, "Where the shortest path along edges begins; vertices as in tables");
+  add_end("--path-from", line.job.path_from,
+          "Where the shortest path along edges begins; vertices as in tables");
   add_end("--path-to", line.job.path_to, "Where it ends; its length is a note");
   group.add_flag("--strict", line.job.read.strict,
                  "Anything that would be mended with a warning is an error");
@@ -152,8 +155,9 @@ void add_picture_options(Group group, RenderOptions& render, PictureTexts& texts
   group.add_text("--size", texts.size, "WxH", "Pixels, 1 to 16384 a side; --view report alone has 500x500")
       ->default_str(fmt::format("{}x{}", render.width, render.height));
   group.add_text("--background", texts.background, "COLOUR", "rrggbb, or none")->default_str("ffffff");
-  group.add_choice("--color-by", render.color_by, kColorings,
-                   "Colours of the layers; number: of a patch, as rrggbb, without shading, one sample a pixel");
+  group.add_choice(
+      "--color-by", render.color_by, kColorings,
+      "Colours of the layers; number: of a patch, as rrggbb, without shading, one sample a pixel");
   group.add_choice("--shading", render.shading, kShadings, "Light on faces");
   group.add_choice("--samples", render.samples, kSamples,
                    "Samples a pixel, averaged; with 1 no colours are mixed");
@@ -222,7 +226,8 @@ bool answer(const Questions& questions, const OptionTable& table) {
   return questions.manual || questions.completion || questions.configuration;
 }
 
-// Where the layers show a tree or a path and no other contours, that is what an .obj or .wrl is asked to hold.
+// Where the layers show a tree or a path and no other contours, that is what an .obj or .wrl is asked to
+// hold.
 void follow_layers(const CLI::App& app, const std::vector<Layer>& layers, WriteOptions& write) {
   const auto shown = [&](Layer layer) { return std::ranges::find(layers, layer) != layers.end(); };
   if (shown(Layer::Edges) || shown(Layer::Curves)) return;
@@ -238,8 +243,8 @@ std::string options_text(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();
     const bool matters = option->count() > 0 && name != "INPUT" && name != "--jobs" && name != "--resume" &&
-                         name != "--shard" && name != "--messages" && name != "--report" && name != "--quiet" &&
-                         name != "--verbose" && name != "--config";
+                         name != "--shard" && name != "--messages" && name != "--report" &&
+                         name != "--quiet" && name != "--verbose" && name != "--config";
     if (matters) text += fmt::format("{}={}\n", name, fmt::join(option->results(), ","));
   }
   return text;
@@ -313,11 +318,13 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
   if (app.count("--layers") > 0) render.layers = parse_choices(texts.layers, kLayers, "--layers");
   follow_layers(app, render.layers, line.job.write);
   if (app.count("--background") > 0) render.background = parse_background(texts.background);
-  line.views = app.count("--view") > 0 ? parse_choices(texts.views, kViews, "--view") : std::vector{render.view};
+  line.views =
+      app.count("--view") > 0 ? parse_choices(texts.views, kViews, "--view") : std::vector{render.view};
   render.view = line.views.front();
   if (line.views == std::vector{View::Report}) render.width = render.height = 500;
   if (app.count("--size") > 0) std::tie(render.width, render.height) = parse_size(texts.size);
-  if (line.job.path_from.has_value() != line.job.path_to.has_value()) usage("a path needs --path-from and --path-to");
+  if (line.job.path_from.has_value() != line.job.path_to.has_value())
+    usage("a path needs --path-from and --path-to");
   if (line.repeat == 0) refuse("--repeat", "0", "at least 1");
   set_threads(line.job, line.threads);
   line.job.simplify.boundary = line.job.subdivide.boundary;

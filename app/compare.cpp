@@ -24,9 +24,10 @@ void list_differences(const Model& model, const std::vector<PatchComparison>& pa
                       const CommandLine& line, Outcome& outcome) {
   for (const PatchComparison& patch : patches) {
     if (patch.equal) continue;
-    const std::string text = fmt::format("{}: halfedge {} edges in {} loops, sorted {} in {}, valence {} vertices",
-                                         patch_name(model, patch), patch.halfedge.edges, patch.halfedge.loops,
-                                         patch.sorted.edges, patch.sorted.loops, patch.valence_vertices);
+    const std::string text =
+        fmt::format("{}: halfedge {} edges in {} loops, sorted {} in {}, valence {} vertices",
+                    patch_name(model, patch), patch.halfedge.edges, patch.halfedge.loops, patch.sorted.edges,
+                    patch.sorted.loops, patch.valence_vertices);
     outcome.output += patch.manifold ? "DISAGREE " + text + '\n' : "not a manifold, " + text + '\n';
     if (!patch.disagrees()) continue;
     fail(ErrorCode::Internal, "the extractors disagree on " + patch_name(model, patch), {}, line, outcome);
@@ -56,13 +57,14 @@ void compare(const Model& model, const CommandLine& line, Outcome& outcome) {
     for (const StageTime& stage : timings.stages()) {
       if (stage.stage == method) wall = stage.wall_ms, cpu = stage.cpu_ms;
     }
-    outcome.output += fmt::format("{:<10} {:>10} {:>10} {:>10} {:>10.2f} {:>10.2f}\n", method, edges, vertices, loops,
-                                  wall, cpu);
+    outcome.output += fmt::format("{:<10} {:>10} {:>10} {:>10} {:>10.2f} {:>10.2f}\n", method, edges,
+                                  vertices, loops, wall, cpu);
   };
-  outcome.output += fmt::format("{} patches, {} of them orientable manifolds; {} triangles no Surface_mesh can hold\n",
-                                patches.size(), manifold, unheld);
-  outcome.output += fmt::format("{:<10} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "extractor", "edges", "vertices",
-                                "loops", "wall ms", "cpu ms");
+  outcome.output +=
+      fmt::format("{} patches, {} of them orientable manifolds; {} triangles no Surface_mesh can hold\n",
+                  patches.size(), manifold, unheld);
+  outcome.output += fmt::format("{:<10} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "extractor", "edges",
+                                "vertices", "loops", "wall ms", "cpu ms");
   row("halfedge", fmt::format("{}", halfedge.edges), halfedge.vertices, fmt::format("{}", halfedge.loops));
   row("sorted", fmt::format("{}", sorted.edges), sorted.vertices, fmt::format("{}", sorted.loops));
   row("valence", "-", valence_vertices, "-");

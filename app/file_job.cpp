@@ -25,7 +25,8 @@ class Names {
   std::string path(const std::string& name, std::string_view view = "") const {
     const auto has = [&](std::string_view field) { return name.find(field) != name.npos; };
     if (several_ && name != "-" && !has("{stem}") && !has("{dir}") && !has("{n}")) {
-      usage(fmt::format("with several inputs the name of the output '{}' needs {{stem}} or {{n}}", printable(name)));
+      usage(fmt::format("with several inputs the name of the output '{}' needs {{stem}} or {{n}}",
+                        printable(name)));
     }
     return fill_template(name, input_, number_, view);
   }
@@ -41,13 +42,14 @@ bool is_seen(OutputFormat format) {
 }
 
 // One output, or one a view.
-void add_output(const std::string& name, OutputFormat format, const std::vector<View>& views, const Names& names,
-                FileJob& job) {
+void add_output(const std::string& name, OutputFormat format, const std::vector<View>& views,
+                const Names& names, FileJob& job) {
   if (!is_seen(format)) {
     job.outputs.push_back({names.path(name), format});
     return;
   }
-  for (const View view : views) job.outputs.push_back({names.path(name, word_of(kViews, view)), format, view});
+  for (const View view : views)
+    job.outputs.push_back({names.path(name, word_of(kViews, view)), format, view});
   if (views.size() > 1 && job.outputs.back().path == job.outputs[job.outputs.size() - 2].path) {
     usage(fmt::format("with several views the name of the output '{}' needs {{view}}", printable(name)));
   }

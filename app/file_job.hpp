@@ -17,7 +17,8 @@ struct FileJob : Job {
 ///
 /// @param number   of the input, from 1.
 /// @param several  there are other inputs: the names of outputs must differ.
-/// @throws Error   Usage if an output has no known format or its name no field that tells inputs, or views, apart.
+/// @throws Error   Usage if an output has no known format or its name no field that tells inputs, or views,
+/// apart.
 FileJob make_job(const CommandLine& command_line, const std::string& input, std::size_t number, bool several);
 
 /// Makes every stage of a job use that many threads; 0: one per processor.

@@ -21,7 +21,8 @@ std::string hash(const std::string& text) {
   constexpr Wide kPrime = (Wide{1} << 88) + 0x13b;
   Wide value = (Wide{0x6c62272e07bb0142} << 64) + 0x62b821756295c58d;
   for (const char c : text) value = (value ^ static_cast<unsigned char>(c)) * kPrime;
-  return fmt::format("{:016x}{:016x}", static_cast<std::uint64_t>(value >> 64), static_cast<std::uint64_t>(value));
+  return fmt::format("{:016x}{:016x}", static_cast<std::uint64_t>(value >> 64),
+                     static_cast<std::uint64_t>(value));
 }
 
 }  // namespace
@@ -33,7 +34,8 @@ Journal::Journal(const std::string& path, const CommandLine& line) : options_(li
   in.close();
   file_.reset(std::fopen(path.c_str(), "ae"));
   if (!file_) {
-    throw Error(ErrorCode::CannotCreate, fmt::format("cannot be opened: {}", std::strerror(errno)), {path, 0, 0, {}});
+    throw Error(ErrorCode::CannotCreate, fmt::format("cannot be opened: {}", std::strerror(errno)),
+                {path, 0, 0, {}});
   }
   // Ends a line that was cut off, so that the next one stands alone.
   std::fputc('\n', file_.get());

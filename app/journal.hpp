@@ -11,8 +11,9 @@ namespace meshcontour::app {
 
 /// Remembers which inputs are done, so that a batch that was stopped goes on where it was.
 ///
-/// A line is written for every input that succeeded: a hash of its path, size and time of change, of its outputs, of
-/// all options that matter to them and of the program's version. A line that was cut off is no line.
+/// A line is written for every input that succeeded: a hash of its path, size and time of change, of its
+/// outputs, of all options that matter to them and of the program's version. A line that was cut off is no
+/// line.
 class Journal {
  public:
   /// @param path    empty: nothing is remembered.

@@ -10,7 +10,8 @@ namespace meshcontour::app {
 /// How messages are written to standard error.
 enum class MessageStyle {
   Text,    ///< "meshcontour: file:line: warning: ..."
-  GitHub,  ///< commands to GitHub Actions, which shows them beside the file: "::warning file=...,line=...::..."
+  GitHub,  ///< commands to GitHub Actions, which shows them beside the file: "::warning
+           ///< file=...,line=...::..."
 };
 
 enum class MessageKind { Error, Warning, Notice };

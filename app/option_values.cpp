@@ -56,7 +56,8 @@ void usage(const std::string& message) {
 }
 
 void refuse(std::string_view option, std::string_view text, std::string_view expected) {
-  throw Error(ErrorCode::Usage, fmt::format("{}: expected {}, found '{}'", option, expected, printable(text)));
+  throw Error(ErrorCode::Usage,
+              fmt::format("{}: expected {}, found '{}'", option, expected, printable(text)));
 }
 
 std::uint64_t parse_count(std::string_view text, std::string_view option, std::uint64_t largest) {
@@ -79,9 +80,8 @@ double parse_length(std::string_view text, std::string_view option) {
 }
 
 std::uint64_t parse_bytes(std::string_view text, std::string_view option) {
-  constexpr std::pair<std::string_view, double> kUnits[] = {{"KB", 1e3},      {"MB", 1e6},      {"GB", 1e9},
-                                                            {"KiB", 1 << 10}, {"MiB", 1 << 20}, {"GiB", 1 << 30},
-                                                            {"B", 1}};
+  constexpr std::pair<std::string_view, double> kUnits[] = {
+      {"KB", 1e3}, {"MB", 1e6}, {"GB", 1e9}, {"KiB", 1 << 10}, {"MiB", 1 << 20}, {"GiB", 1 << 30}, {"B", 1}};
   double scale = 1;
   std::string_view digits = text;
   for (const auto& [unit, bytes] : kUnits) {
@@ -91,7 +91,8 @@ std::uint64_t parse_bytes(std::string_view text, std::string_view option) {
     break;
   }
   const auto value = whole_number<double>(digits);
-  if (!value || !(*value * scale >= 1) || *value * scale > 1e18) refuse(option, text, "a size as in 500MB or 2GB");
+  if (!value || !(*value * scale >= 1) || *value * scale > 1e18)
+    refuse(option, text, "a size as in 500MB or 2GB");
   return static_cast<std::uint64_t>(*value * scale);
 }
 
@@ -173,7 +174,8 @@ std::vector<std::string_view> split_commas(std::string_view text) {
   }
 }
 
-std::vector<std::pair<std::size_t, std::size_t>> parse_ranges(std::string_view text, std::string_view option) {
+std::vector<std::pair<std::size_t, std::size_t>> parse_ranges(std::string_view text,
+                                                              std::string_view option) {
   std::vector<std::pair<std::size_t, std::size_t>> ranges;
   for (const std::string_view part : split_commas(text)) {
     const std::size_t dash = part.find('-');

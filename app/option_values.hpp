@@ -16,8 +16,8 @@
 
 namespace meshcontour::app {
 
-// Values of options as the user types them. All throw Error{Usage} with a message that names the option, the text
-// and what would be right.
+// Values of options as the user types them. All throw Error{Usage} with a message that names the option, the
+// text and what would be right.
 
 /// Any other fault of the command line.
 [[noreturn]] void usage(const std::string& message);
@@ -48,7 +48,8 @@ void parse_simplification(std::string_view text, SimplifyOptions& options);
 /// "1280x960"
 std::pair<int, int> parse_size(std::string_view text);
 
-/// "edges=ff0000": a layer and its colour; "edges=2.5": a layer and the width of its lines in pixels, up to 64.
+/// "edges=ff0000": a layer and its colour; "edges=2.5": a layer and the width of its lines in pixels, up
+/// to 64.
 LayerStyle parse_layer_color(std::string_view text);
 LayerStyle parse_layer_width(std::string_view text);
 
@@ -101,8 +102,8 @@ std::string join_words(const std::vector<T>& values, const Choices<T, N>& choice
 /// With its dot; empty where there is none.
 std::string extension(const std::string& path);
 
-/// The output's name with {stem}, {dir}, {n} and {view} filled in: the input's name without folder and extension, its
-/// folder, its number, the picture's view.
+/// The output's name with {stem}, {dir}, {n} and {view} filled in: the input's name without folder and
+/// extension, its folder, its number, the picture's view.
 std::string fill_template(std::string_view name, const std::string& input, std::size_t number,
                           std::string_view view);
 

@@ -28,12 +28,13 @@ void describe(const Run& run, const FileJob& job, const CommandLine& line, Outco
   if (run.diagnostics.size() > kMostFindings) {
     report.findings.push_back(fmt::format("and {} more", run.diagnostics.size() - kMostFindings));
   }
-  for (const Contour& contour : run.contours) report.deviation = std::max(report.deviation, contour.deviation);
+  for (const Contour& contour : run.contours)
+    report.deviation = std::max(report.deviation, contour.deviation);
   report.preview = run.preview;
   report.counts = counts_of(run.model, run.boundaries, run.contours);
   if (output_paths(job).empty() && line.reports.empty()) {
-    outcome.output += summary(run.model, run.boundaries, run.contours, run.timings.stages(),
-                              run.simplifications);
+    outcome.output +=
+        summary(run.model, run.boundaries, run.contours, run.timings.stages(), run.simplifications);
   }
 }
 
@@ -69,7 +70,8 @@ class Pages {
 
 }  // namespace
 
-void fail(ErrorCode code, const std::string& message, const Spot& spot, const CommandLine& line, Outcome& outcome) {
+void fail(ErrorCode code, const std::string& message, const Spot& spot, const CommandLine& line,
+          Outcome& outcome) {
   outcome.report.outcome = FileReport::Outcome::Failed;
   outcome.report.exit_code = static_cast<int>(code);
   outcome.report.message = message;
@@ -94,8 +96,8 @@ Outcome run_job(const FileJob& job, const CommandLine& line) {
   } catch (const std::bad_alloc&) {
     fail(ErrorCode::OutOfMemory, printable(job.input) + ": out of memory", input, line, outcome);
   } catch (const std::exception& error) {
-    fail(ErrorCode::Internal, fmt::format("{}: internal error: {}", printable(job.input), error.what()), input,
-         line, outcome);
+    fail(ErrorCode::Internal, fmt::format("{}: internal error: {}", printable(job.input), error.what()),
+         input, line, outcome);
   }
   outcome.report.peak_memory = peak_memory();
   return outcome;

@@ -18,7 +18,8 @@ struct Outcome {
 Outcome run_job(const FileJob& job, const CommandLine& line);
 
 /// Makes the outcome a failure and adds the message to what is printed.
-void fail(ErrorCode code, const std::string& message, const Spot& spot, const CommandLine& line, Outcome& outcome);
+void fail(ErrorCode code, const std::string& message, const Spot& spot, const CommandLine& line,
+          Outcome& outcome);
 
 /// An outcome as bytes, to go from a worker to its parent, and back.
 std::string to_bytes(const Outcome& outcome);

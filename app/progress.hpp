@@ -5,8 +5,8 @@
 
 namespace meshcontour::app {
 
-/// Tells on standard error how far a batch is: a bar on a terminal, otherwise a line at every tenth of 20 or more
-/// inputs; nothing when quiet.
+/// Tells on standard error how far a batch is: a bar on a terminal, otherwise a line at every tenth of 20 or
+/// more inputs; nothing when quiet.
 class Progress {
  public:
   Progress(std::size_t count, int verbosity);

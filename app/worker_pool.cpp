@@ -83,7 +83,7 @@ struct Worker {
   std::optional<std::size_t> task;
   Clock::time_point started;
   TaskResult::End reason = TaskResult::End::Crashed;  // why it was told to end
-  std::optional<Clock::time_point> kill_at;            // set once it was told to end
+  std::optional<Clock::time_point> kill_at;           // set once it was told to end
 };
 
 class Pool {
@@ -112,7 +112,8 @@ class Pool {
       throw Error(ErrorCode::OutOfMemory, std::string("no channel to a worker: ") + std::strerror(errno));
     }
     const pid_t process = fork();
-    if (process < 0) throw Error(ErrorCode::OutOfMemory, std::string("no worker process: ") + std::strerror(errno));
+    if (process < 0)
+      throw Error(ErrorCode::OutOfMemory, std::string("no worker process: ") + std::strerror(errno));
     if (process == 0) {
       close(ends[0]);
       for (const Worker& other : workers_) {

@@ -17,7 +17,7 @@ struct WorkerLimits {
 struct TaskResult {
   enum class End {
     Done,
-    Crashed,   ///< the worker died; `signal` says of what
+    Crashed,  ///< the worker died; `signal` says of what
     TimedOut,
     TooLarge,  ///< more memory than the limit
   };
@@ -28,8 +28,8 @@ struct TaskResult {
 
 /// Runs tasks 0..count-1 in worker processes, so that one that crashes, hangs or grows harms no other.
 ///
-/// The workers are forked from the caller, which must not have started a thread or an OpenGL context. A worker that
-/// died is replaced. Workers end with the caller.
+/// The workers are forked from the caller, which must not have started a thread or an OpenGL context. A
+/// worker that died is replaced. Workers end with the caller.
 ///
 /// @param task      runs in a worker.
 /// @param finished  runs in the caller, in the order in which tasks end.

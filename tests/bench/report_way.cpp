@@ -1,9 +1,9 @@
 // The picture drawn the way of the report that this grew from, beside ours: glBegin and glFlush for each
-// triangle, a GLU renderer and glFlush for each loop; and its curves with one renderer and one flush. Ours is drawn
-// with 4 samples a pixel, which is its default, and with 1 as the others; ratios are to both. Each
-// way draws in a process of its own, several pictures, of which the first (with what starts up) and the
-// median of the rest are printed. The model is moved and scaled into the report's view; a flush costs what
-// copying the picture does, so there are two sizes.
+// triangle, a GLU renderer and glFlush for each loop; and its curves with one renderer and one flush. Ours is
+// drawn with 4 samples a pixel, which is its default, and with 1 as the others; ratios are to both. Each way
+// draws in a process of its own, several pictures, of which the first (with what starts up) and the median of
+// the rest are printed. The model is moved and scaled into the report's view; a flush costs what copying the
+// picture does, so there are two sizes.
 //
 // usage: bench_report_way MODEL|loops [rounds]     loops: 1000 loops of 50 vertices
 

@@ -25,12 +25,14 @@ TEST_CASE("batch: a folder is read in order of names, the bad file is one line",
   const TemporaryFolder folder;
   fill(folder, 5);
   const std::string workers = GENERATE("1", "2", "4");
-  const ProgramResult result = run_program({"in", "-o", "out/{stem}.csv", "-j", workers, "--report", "report.json"},
-                                           {.folder = folder.path().string()});
+  const ProgramResult result =
+      run_program({"in", "-o", "out/{stem}.csv", "-j", workers, "--report", "report.json"},
+                  {.folder = folder.path().string()});
   CHECK(result.code == 1);
   CHECK_THAT(result.errors, Contains("in/part100b.xml") && Contains("6 inputs: 5 done, 1 failed"));
   const std::string expected = run_program({kStud, "-o", "-", "--format", "csv"}).output;
-  for (int i = 0; i < 5; ++i) CHECK(file_text(folder / ("out/part" + std::to_string(100 + i) + ".csv")) == expected);
+  for (int i = 0; i < 5; ++i)
+    CHECK(file_text(folder / ("out/part" + std::to_string(100 + i) + ".csv")) == expected);
 
   const std::string report = file_text(folder / "report.json");
   CHECK(count_lines(report) == 6);
@@ -50,7 +52,8 @@ TEST_CASE("batch: summaries come in the order of the inputs", "[cli][batch]") {
     return run_program(arguments, {.folder = folder.path().string()});
   };
   CHECK(run("2").code == 64);  // three results on one standard output
-  const ProgramResult counts = run_program({inputs[0], inputs[1], inputs[2], "-j", "3"}, {.folder = folder.path().string()});
+  const ProgramResult counts =
+      run_program({inputs[0], inputs[1], inputs[2], "-j", "3"}, {.folder = folder.path().string()});
   CHECK(counts.code == 0);
   CHECK_THAT(counts.output, Contains("238"));
 }

@@ -23,7 +23,10 @@ TEST_CASE("errors: a bad input gives its code, one clear message and no output",
   };
   const Case bad = GENERATE_COPY(values<Case>({
       {"empty", "", "empty"},
-      {"not XML", "\x7f" "ELF\x02\x01\x01", "in.xml"},
+      {"not XML",
+       "\x7f"
+       "ELF\x02\x01\x01",
+       "in.xml"},
       {"cut", stud.substr(0, stud.size() / 2), "in.xml:"},
       {"wrong index", replaced(stud, "<f v=\"", "<f v=\"99999 "), "in.xml:"},
       {"NaN", replaced(stud, vertex, "p=\"nan 0 0\""), "nan"},
@@ -34,7 +37,8 @@ TEST_CASE("errors: a bad input gives its code, one clear message and no output",
   CAPTURE(bad.name);
   const TemporaryFolder folder;
   write_file(folder / "in.xml", bad.text);
-  const ProgramResult result = run_program({"in.xml", "-o", "out.csv", "-o", "out.png"}, {.folder = folder.path().string()});
+  const ProgramResult result =
+      run_program({"in.xml", "-o", "out.csv", "-o", "out.png"}, {.folder = folder.path().string()});
   CHECK(result.code == 65);
   CHECK_THAT(result.errors, Contains(bad.message) && Contains("in.xml"));
   CHECK(count_lines(result.errors) == 1);
@@ -51,7 +55,8 @@ TEST_CASE("errors: an input that cannot be read has code 66", "[cli][error]") {
   CHECK_THAT(directory.errors, Contains("director") || Contains("folder"));
 }
 
-TEST_CASE("errors: an output that cannot be created has code 73, one that cannot be written 74", "[cli][error]") {
+TEST_CASE("errors: an output that cannot be created has code 73, one that cannot be written 74",
+          "[cli][error]") {
   const TemporaryFolder folder;
   CHECK(run_program({kStud, "-o", folder.path().string() + "/absent/out.csv"}).code == 73);
   CHECK(run_program({kStud, "-o", folder.path().string(), "--format", "csv"}).code == 73);
@@ -75,8 +80,9 @@ TEST_CASE("errors: without a rasterizer a picture has code 69 and tables are wri
 
 TEST_CASE("errors: a picture in which nothing would show is none", "[cli][error]") {
   const TemporaryFolder folder;
-  const ProgramResult result = run_program({kStud, "-o", "out.png", "-o", "out.csv", "--layers", "annotations"},
-                                           {.folder = folder.path().string()});
+  const ProgramResult result =
+      run_program({kStud, "-o", "out.png", "-o", "out.csv", "--layers", "annotations"},
+                  {.folder = folder.path().string()});
   CHECK(result.code == 65);
   CHECK_THAT(result.errors, Contains("nothing to draw"));
   CHECK(folder.names().empty());

@@ -42,8 +42,8 @@ TEST_CASE("options: a mistyped one is answered with the nearest", "[cli][error]"
 
 TEST_CASE("options: a printed configuration can be read back", "[cli]") {
   const TemporaryFolder folder;
-  const std::vector<std::string> given = {"--view",  "top",    "--fit",     "control", "-o", "a \"b\".csv", "-o",
-                                          "stud.svg", "--caps", "--patches", "4"};
+  const std::vector<std::string> given = {"--view", "top",      "--fit",  "control",   "-o", "a \"b\".csv",
+                                          "-o",     "stud.svg", "--caps", "--patches", "4"};
   std::vector<std::string> printing = given, running = given;
   printing.push_back("--print-config");
   running.push_back(kStud);
@@ -65,7 +65,8 @@ TEST_CASE("options: a printed configuration can be read back", "[cli]") {
 TEST_CASE("options: a configuration that is wrong is refused", "[cli][error]") {
   const TemporaryFolder folder;
   write_file(folder / "bad.toml", "colour = \"red\"\n");
-  const ProgramResult unknown = run_program({"--config", "bad.toml", kStud}, {.folder = folder.path().string()});
+  const ProgramResult unknown =
+      run_program({"--config", "bad.toml", kStud}, {.folder = folder.path().string()});
   CHECK(unknown.code == 64);
   CHECK_THAT(unknown.errors, Contains("colour"));
   CHECK(run_program({"--config", "absent.toml", kStud}, {.folder = folder.path().string()}).code == 64);
@@ -96,8 +97,9 @@ TEST_CASE("options: bash completes options and their words", "[cli]") {
   const TemporaryFolder folder;
   write_file(folder / "completion", run_program({"--completion", "bash"}).output);
   const auto complete = [&](const std::string& words, int position) {
-    const std::string command = "bash -c 'source " + (folder / "completion").string() + "; COMP_WORDS=(meshcontour " +
-                                words + "); COMP_CWORD=" + std::to_string(position) +
+    const std::string command = "bash -c 'source " + (folder / "completion").string() +
+                                "; COMP_WORDS=(meshcontour " + words +
+                                "); COMP_CWORD=" + std::to_string(position) +
                                 "; _meshcontour; echo \"${COMPREPLY[*]}\"' > " + (folder / "reply").string();
     REQUIRE(std::system(command.c_str()) == 0);
     return file_text(folder / "reply");

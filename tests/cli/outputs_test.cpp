@@ -14,13 +14,14 @@ const std::string kStud = std::string(MESHCONTOUR_DATA_DIR) + "/stud.xml";
 TEST_CASE("outputs: one run writes every kind", "[cli]") {
   const TemporaryFolder folder;
   const ProgramResult result =
-      run_program({kStud, "-o", "stud.png", "-o", "loops.csv", "-o", "loops.obj", "-o", "stud.json", "--report",
-                   "timings.json", "--size", "160x120"},
+      run_program({kStud, "-o", "stud.png", "-o", "loops.csv", "-o", "loops.obj", "-o", "stud.json",
+                   "--report", "timings.json", "--size", "160x120"},
                   {.folder = folder.path().string()});
   INFO(result.errors);
   REQUIRE(result.code == 0);
   CHECK(result.output.empty());
-  CHECK(folder.names() == std::set<std::string>{"stud.png", "loops.csv", "loops.obj", "stud.json", "timings.json"});
+  CHECK(folder.names() ==
+        std::set<std::string>{"stud.png", "loops.csv", "loops.obj", "stud.json", "timings.json"});
   CHECK(file_text(folder / "stud.png").starts_with("\x89PNG\r\n"));
   CHECK(count_lines(file_text(folder / "loops.csv")) == 1 + 496);
 
@@ -41,7 +42,8 @@ TEST_CASE("outputs: without one the summary is printed", "[cli]") {
   const ProgramResult result = run_program({kStud});
   REQUIRE(result.code == 0);
   CHECK(result.errors.empty());
-  for (const std::string number : {"238", "472", "13", "496", "14"}) CHECK_THAT(result.output, Contains(number));
+  for (const std::string number : {"238", "472", "13", "496", "14"})
+    CHECK_THAT(result.output, Contains(number));
 }
 
 TEST_CASE("outputs: text is the same for every thread count, locale, home and working folder", "[cli]") {
@@ -53,7 +55,8 @@ TEST_CASE("outputs: text is the same for every thread count, locale, home and wo
     more.insert(more.end(), {"-j", threads});
     CHECK(run_program(more).output == plain.output);
   }
-  const ProgramResult bare = run_program(arguments, {.folder = "/", .environment = {"PATH=/usr/bin", "LC_ALL=C"}});
+  const ProgramResult bare =
+      run_program(arguments, {.folder = "/", .environment = {"PATH=/usr/bin", "LC_ALL=C"}});
   CHECK(bare.output == plain.output);
 }
 
@@ -61,7 +64,8 @@ TEST_CASE("outputs: a picture is the same without home, locale and a writable fo
   const std::vector<std::string> arguments = {kStud, "-o", "-", "--format", "png", "--size", "160x120"};
   const ProgramResult plain = run_program(arguments);
   REQUIRE(plain.code == 0);
-  const ProgramResult bare = run_program(arguments, {.folder = "/proc", .environment = {"PATH=/usr/bin", "LC_ALL=C"}});
+  const ProgramResult bare =
+      run_program(arguments, {.folder = "/proc", .environment = {"PATH=/usr/bin", "LC_ALL=C"}});
   CHECK(bare.code == 0);
   CHECK(bare.output == plain.output);
 }
@@ -84,8 +88,9 @@ TEST_CASE("outputs: several inputs fill the template, and a bad one does not sto
   write_file(folder / "bad.xml", "<step-assembly");
   std::filesystem::copy(kStud, folder / "first.xml");
   std::filesystem::copy(kStud, folder / "second.xml");
-  const ProgramResult result = run_program({"first.xml", "bad.xml", "second.xml", "-o", "{dir}/{stem}-{n}.csv"},
-                                           {.folder = folder.path().string()});
+  const ProgramResult result =
+      run_program({"first.xml", "bad.xml", "second.xml", "-o", "{dir}/{stem}-{n}.csv"},
+                  {.folder = folder.path().string()});
   CHECK(result.code == 1);
   CHECK_THAT(result.errors, Contains("bad.xml") && Contains("3 inputs: 2 done, 1 failed"));
   CHECK(folder.names() ==

@@ -37,8 +37,8 @@ struct Batch {
 TEST_CASE("page: one of all inputs, in their order, with pictures and models", "[cli][page]") {
   const Batch batch;
   REQUIRE(batch.run({"-o", "page.html", "-o", "{stem}.csv"}).code == 1);
-  CHECK(batch.folder.names() == std::set<std::string>{"first.xml", "bad.xml", "second.xml", "page.html", "first.csv",
-                                                      "second.csv"});
+  CHECK(batch.folder.names() ==
+        std::set<std::string>{"first.xml", "bad.xml", "second.xml", "page.html", "first.csv", "second.csv"});
   const std::string html = file_text(batch.folder / "page.html");
   CHECK(occurrences(html, "<tr data-outcome=") == 3);
   CHECK(occurrences(html, "data:image/png;base64,iVBOR") == 2);
@@ -81,7 +81,8 @@ TEST_CASE("page: without a rasterizer it comes without pictures", "[cli][page]")
   CHECK_THAT(html, !Contains("<img") && Contains("the page has no picture") && Contains("\">Z2xURgIAAA"));
 }
 
-TEST_CASE("page: the models of the first inputs are kept, in whatever order the workers finish", "[cli][page]") {
+TEST_CASE("page: the models of the first inputs are kept, in whatever order the workers finish",
+          "[cli][page]") {
   using meshcontour::FileReport;
   constexpr std::size_t kSize = meshcontour::kLargestPageModels / 10;
   std::vector<std::size_t> order(30);

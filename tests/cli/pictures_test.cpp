@@ -13,14 +13,16 @@ const std::string kAssembly = std::string(MESHCONTOUR_DATA_DIR) + "/assembly/ind
 TEST_CASE("views: several give a picture each, as one run a view would", "[cli]") {
   const TemporaryFolder folder;
   const ProgramOptions here{.folder = folder.path().string()};
-  const ProgramResult result =
-      run_program({kStud, "-o", "{stem}-{view}.png", "-o", "{view}.svg", "-o", "{stem}.csv", "--view", "top,iso",
-                   "--size", "80x60"},
-                  here);
+  const ProgramResult result = run_program({kStud, "-o", "{stem}-{view}.png", "-o", "{view}.svg", "-o",
+                                            "{stem}.csv", "--view", "top,iso", "--size", "80x60"},
+                                           here);
   INFO(result.errors);
   REQUIRE(result.code == 0);
-  CHECK(folder.names() == std::set<std::string>{"stud-top.png", "stud-iso.png", "top.svg", "iso.svg", "stud.csv"});
-  REQUIRE(run_program({kStud, "-o", "one.png", "-o", "one.svg", "--view", "top", "--size", "80x60"}, here).code == 0);
+  CHECK(folder.names() ==
+        std::set<std::string>{"stud-top.png", "stud-iso.png", "top.svg", "iso.svg", "stud.csv"});
+  REQUIRE(
+      run_program({kStud, "-o", "one.png", "-o", "one.svg", "--view", "top", "--size", "80x60"}, here).code ==
+      0);
   CHECK(file_text(folder / "one.png") == file_text(folder / "stud-top.png"));
   CHECK(file_text(folder / "one.svg") == file_text(folder / "top.svg"));
   CHECK(file_text(folder / "one.png") != file_text(folder / "stud-iso.png"));
@@ -36,10 +38,14 @@ TEST_CASE("views: several need names that tell them apart", "[cli][error]") {
 }
 
 TEST_CASE("layers: colours and widths of theirs are checked", "[cli][error]") {
-  for (const auto& [option, value] :
-       {std::pair<std::string, std::string>{"--color", "edges"}, {"--color", "edge=ff0000"},
-        {"--color", "edges=red"}, {"--color", "edges=ff000080"}, {"--line-width", "edges=0"},
-        {"--line-width", "edges=65"}, {"--line-width", "edges=nan"}, {"--line-width", "=2"}}) {
+  for (const auto& [option, value] : {std::pair<std::string, std::string>{"--color", "edges"},
+                                      {"--color", "edge=ff0000"},
+                                      {"--color", "edges=red"},
+                                      {"--color", "edges=ff000080"},
+                                      {"--line-width", "edges=0"},
+                                      {"--line-width", "edges=65"},
+                                      {"--line-width", "edges=nan"},
+                                      {"--line-width", "=2"}}) {
     const ProgramResult result = run_program({kStud, option, value});
     INFO(option << ' ' << value);
     CHECK(result.code == 64);
@@ -99,7 +105,8 @@ TEST_CASE("units: one that the model does not tell has to be named", "[cli][erro
   const ProgramResult unknown = run_program({file, "--unit", "mm"});
   CHECK(unknown.code == 64);
   CHECK_THAT(unknown.errors, Contains("--input-unit"));
-  const ProgramResult known = run_program({file, "--input-unit", "in", "--unit", "mm", "-o", "-", "--format", "csv"});
+  const ProgramResult known =
+      run_program({file, "--input-unit", "in", "--unit", "mm", "-o", "-", "--format", "csv"});
   CHECK_THAT(known.output, Contains(",25.4,"));
   CHECK(run_program({file, "--unit", "parsec"}).code == 64);
 }

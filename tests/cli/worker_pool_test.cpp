@@ -25,7 +25,8 @@ std::map<std::size_t, TaskResult> results_of(std::size_t count, const WorkerLimi
 
 TEST_CASE("run_in_workers: every task gives its own answer, large ones too", "[app]") {
   const unsigned workers = GENERATE(1u, 2u, 5u);
-  const auto results = results_of(20, {.workers = workers}, [](std::size_t i) { return std::string(i * 100000, 'x'); });
+  const auto results =
+      results_of(20, {.workers = workers}, [](std::size_t i) { return std::string(i * 100000, 'x'); });
   REQUIRE(results.size() == 20);
   for (const auto& [number, result] : results) {
     CHECK(result.end == TaskResult::End::Done);

@@ -1,4 +1,5 @@
-// Reads a model and prints how many loops of how many kinds of curves it has; draws it when a second file is named.
+// Reads a model and prints how many loops of how many kinds of curves it has; draws it when a second file is
+// named.
 
 #include <cstdio>
 #include <map>

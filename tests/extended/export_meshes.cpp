@@ -1,4 +1,5 @@
-// Writes one model as a mesh in every format and variant, for other programs to read: export_meshes FOLDER FILE
+// Writes one model as a mesh in every format and variant, for other programs to read: export_meshes FOLDER
+// FILE
 
 #include <fmt/format.h>
 

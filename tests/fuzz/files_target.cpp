@@ -1,5 +1,5 @@
-// A model and the files that it names, read from a folder. Behind a byte that chooses options come the files, each
-// behind a line "@NAME"; the first is the one that is read.
+// A model and the files that it names, read from a folder. Behind a byte that chooses options come the files,
+// each behind a line "@NAME"; the first is the one that is read.
 
 #include <algorithm>
 #include <filesystem>
@@ -67,7 +67,8 @@ void read_files(Bytes input) {
   options.threads = 1;
   const std::string alone = outcome([&] { return read_model(first, options); });
   options.threads = 3;
-  require(outcome([&] { return read_model(first, options); }) == alone, "several threads read something else");
+  require(outcome([&] { return read_model(first, options); }) == alone,
+          "several threads read something else");
   // Without a folder every named file is missing.
   const bool names_files = files[0].bytes.find("href") != files[0].bytes.npos ||
                            files[0].bytes.find("mtllib") != files[0].bytes.npos;

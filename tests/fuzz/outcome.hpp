@@ -14,8 +14,8 @@ inline std::string_view text_of(Bytes input) {
   return {reinterpret_cast<const char*>(input.data()), input.size()};
 }
 
-/// The model bit by bit with what was said of it, or that the reader refuses it. Of several faults two ways of reading
-/// may name either.
+/// The model bit by bit with what was said of it, or that the reader refuses it. Of several faults two ways
+/// of reading may name either.
 template <typename Read>
 std::string outcome(const Read& read) {
   try {

@@ -77,8 +77,8 @@ void read_net(Bytes input) {
   }
 }
 
-// The blocks of a stream before they are compressed, each behind its kind and a length of two bytes, as no mutation
-// gets past compression and checksums. An input that begins like a stream is taken as it is.
+// The blocks of a stream before they are compressed, each behind its kind and a length of two bytes, as no
+// mutation gets past compression and checksums. An input that begins like a stream is taken as it is.
 void read_wavelet(Bytes input) {
   std::string_view rest = text_of(input);
   if (rest.starts_with(detail::kStreamSignature)) return read_named(input, "m.mcw");

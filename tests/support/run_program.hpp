@@ -29,7 +29,8 @@ inline std::size_t count_lines(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-inline ProgramResult run_program(const std::vector<std::string>& arguments, const ProgramOptions& options = {}) {
+inline ProgramResult run_program(const std::vector<std::string>& arguments,
+                                 const ProgramOptions& options = {}) {
   const TemporaryFolder folder;
   const std::string output = options.output.empty() ? (folder / "output").string() : options.output;
   const std::string errors = (folder / "errors").string();

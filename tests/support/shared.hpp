@@ -11,8 +11,8 @@ inline std::filesystem::path shared_dir() {
   return MESHCONTOUR_SHARED_DIR;
 }
 
-#define MESHCONTOUR_NEEDS_SHARED(part)                                  \
-  if (!std::filesystem::exists(shared_dir() / part)) {                  \
+#define MESHCONTOUR_NEEDS_SHARED(part)                                   \
+  if (!std::filesystem::exists(shared_dir() / part)) {                   \
     WARN("skipped: " << (shared_dir() / part).string() << " is absent"); \
-    return;                                                             \
+    return;                                                              \
   }

@@ -49,16 +49,16 @@ void repair_model(Model& model, unsigned threads = 0);
 /// Removes the triangles that name a point twice; corner normals and patches follow. Returns how many.
 std::size_t drop_degenerate_triangles(Shell& shell);
 
-/// Removes the triangles that name a point twice, and copies of a triangle within its patch: the same three points in
-/// the same cyclic order. The first of the copies stays; mirrored ones, and copies in other patches, are none. For
-/// files whose patches are known to be sound; says what it did in `diagnostics`, one warning a kind, with the first
-/// patch. Linear: triangles are marked in a bit set by a hash, and only those that share a mark are sorted. Returns
-/// how many were removed.
+/// Removes the triangles that name a point twice, and copies of a triangle within its patch: the same three
+/// points in the same cyclic order. The first of the copies stays; mirrored ones, and copies in other
+/// patches, are none. For files whose patches are known to be sound; says what it did in `diagnostics`, one
+/// warning a kind, with the first patch. Linear: triangles are marked in a bit set by a hash, and only those
+/// that share a mark are sorted. Returns how many were removed.
 std::size_t drop_degenerate_and_duplicate_triangles(Shell& shell, std::vector<Diagnostic>& diagnostics,
                                                     unsigned threads = 0);
 
-/// Whether a triangle has an area: twice it is more than 1e-12 of the square of its longest side. False where all
-/// points lie on a line. Looks no further than the first such triangle.
+/// Whether a triangle has an area: twice it is more than 1e-12 of the square of its longest side. False where
+/// all points lie on a line. Looks no further than the first such triangle.
 bool has_area(const Shell& shell);
 
 /// Number of points that no triangle uses.

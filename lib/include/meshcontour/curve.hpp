@@ -14,8 +14,8 @@ struct LineSegment {
   Point start = Point::Zero(), end = Point::Zero();
 };
 
-/// A circular arc, counter-clockwise about `axis` from start by `angle`; a full circle when angle is 2 pi, then
-/// end == start.
+/// A circular arc, counter-clockwise about `axis` from start by `angle`; a full circle when angle is 2 pi,
+/// then end == start.
 struct CircularArc {
   Point start = Point::Zero(), end = Point::Zero();
   Point center = Point::Zero();
@@ -25,7 +25,8 @@ struct CircularArc {
   bool full() const;
 };
 
-/// An elliptical arc: center + cos(t) major + sin(t) ratio (axis x major), t from start's parameter, growing by `angle`.
+/// An elliptical arc: center + cos(t) major + sin(t) ratio (axis x major), t from start's parameter, growing
+/// by `angle`.
 struct EllipticalArc {
   Point start = Point::Zero(), end = Point::Zero();
   Point center = Point::Zero();
@@ -58,11 +59,12 @@ using Curve = std::variant<LineSegment, CircularArc, EllipticalArc, BSplineCurve
 struct Segment {
   Index from = 0, to = 0;  ///< vertices of the shell at its ends; equal when it is the whole loop
   Curve curve;
-  double deviation = 0;    ///< upper bound of its distance to the loop's chords and vertices, model units
+  double deviation = 0;  ///< upper bound of its distance to the loop's chords and vertices, model units
 
-  /// The edges of the shell that it runs along: edge .. edge + edge_count - 1, numbered from 0 within the shell.
-  /// Segments of a shell along the same edges are the same curve, bit for bit, `reversed` where they run against
-  /// its first use. Several edges: a full circle or ellipse that other patches see in parts. None: not known.
+  /// The edges of the shell that it runs along: edge .. edge + edge_count - 1, numbered from 0 within the
+  /// shell. Segments of a shell along the same edges are the same curve, bit for bit, `reversed` where they
+  /// run against its first use. Several edges: a full circle or ellipse that other patches see in parts.
+  /// None: not known.
   Index edge = 0, edge_count = 0;
   bool reversed = false;
 };
@@ -76,23 +78,25 @@ struct Contour {
   bool fallback = false;          ///< could not be fitted: the segments are the loop's own polygon
 };
 
-/// Basis functions N_{span-degree..span} at u and their derivatives up to `order`, by the Cox-de Boor recurrence
-/// [Piegl & Tiller 1997, A2.3]. The result has order+1 rows of degree+1 columns.
-Eigen::MatrixXd basis_functions(const std::vector<double>& knots, int degree, std::size_t span, double u, int order);
+/// Basis functions N_{span-degree..span} at u and their derivatives up to `order`, by the Cox-de Boor
+/// recurrence [Piegl & Tiller 1997, A2.3]. The result has order+1 rows of degree+1 columns.
+Eigen::MatrixXd basis_functions(const std::vector<double>& knots, int degree, std::size_t span, double u,
+                                int order);
 
 /// The knot span that holds u: the largest i in [degree, n-1] with knots[i] <= u and knots[i] < knots[i+1];
 /// u outside the domain is clamped to it.
 std::size_t find_span(const BSplineCurve& curve, double u);
 
-/// Position at u, and derivatives up to `order` (row k: the k-th, as 3 coordinates), rational curves included.
+/// Position at u, and derivatives up to `order` (row k: the k-th, as 3 coordinates), rational curves
+/// included.
 Point evaluate(const BSplineCurve& curve, double u);
 Eigen::MatrixX3d derivatives(const BSplineCurve& curve, double u, int order);
 
 /// Position at the fraction s in [0, 1] of a curve's own parameter.
 Point evaluate(const Curve& curve, double s);
 
-/// The curve as a clamped B-spline; arcs and ellipses become rational quadratics in pieces of at most 90 degrees
-/// [Piegl & Tiller 1997, section 7.3]; a periodic curve is clamped by knot insertion.
+/// The curve as a clamped B-spline; arcs and ellipses become rational quadratics in pieces of at most 90
+/// degrees [Piegl & Tiller 1997, section 7.3]; a periodic curve is clamped by knot insertion.
 BSplineCurve to_clamped_bspline(const Curve& curve);
 
 /// The same points, run backwards.

@@ -7,7 +7,8 @@
 
 namespace meshcontour {
 
-/// Why a call failed. The values are the process exit codes of the command-line tool (sysexits.h where it has one).
+/// Why a call failed. The values are the process exit codes of the command-line tool (sysexits.h where it has
+/// one).
 enum class ErrorCode {
   Usage = 64,         ///< an option or argument is out of range or contradicts another
   BadData = 65,       ///< the input was read and is wrong

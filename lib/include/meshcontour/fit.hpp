@@ -14,12 +14,13 @@ enum class FitMethod {
   Control,      ///< the vertices are the control points of a closed uniform cubic B-spline, as in the report
   Interpolate,  ///< the periodic cubic through the vertices
   Approximate,  ///< corners kept, B-splines within the tolerance between them
-  Primitives,   ///< corners, lines, circular and elliptical arcs, B-splines for the rest, within the tolerance
+  Primitives,  ///< corners, lines, circular and elliptical arcs, B-splines for the rest, within the tolerance
 };
 
 struct FitOptions {
   FitMethod method = FitMethod::Primitives;
-  double tolerance = 0;  ///< largest distance of curve and loop vertices, model units; 0: 1e-4 of the loop's box diagonal
+  double tolerance =
+      0;  ///< largest distance of curve and loop vertices, model units; 0: 1e-4 of the loop's box diagonal
   double corner_angle = 35 * std::numbers::pi / 180;  ///< a loop turns by more than this at a corner, radians
   unsigned threads = 0;                               ///< 0: one per processor
 };
@@ -33,14 +34,15 @@ struct FitOptions {
 std::vector<Contour> fit_contours(const Model& model, std::span<const ShellBoundary> boundaries,
                                   const FitOptions& options, std::vector<Diagnostic>& diagnostics);
 
-/// For each contour and each of its segments, whether earlier segments of the shell already run along all of its
-/// edges: what is left out when every edge is to be written once. Segments without edges are never repeats.
+/// For each contour and each of its segments, whether earlier segments of the shell already run along all of
+/// its edges: what is left out when every edge is to be written once. Segments without edges are never
+/// repeats.
 ///
 /// @param contours  those that are written, in their order; any subset of a model's.
 std::vector<std::vector<bool>> repeated_segments(std::span<const Contour> contours);
 
-/// The closed uniform cubic B-spline whose control points are the points of a loop, the first three repeated; knots
-/// 0, 1, 2, ... The curve lies inside the loop: on a circle by 4/3 of the chords' sagitta.
+/// The closed uniform cubic B-spline whose control points are the points of a loop, the first three repeated;
+/// knots 0, 1, 2, ... The curve lies inside the loop: on a circle by 4/3 of the chords' sagitta.
 ///
 /// @param points  N >= 3.
 BSplineCurve control_polygon_curve(std::span<const Point> points);

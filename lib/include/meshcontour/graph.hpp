@@ -30,7 +30,8 @@ EdgePaths shortest_path(const Shell& shell, Index from, Index to);
 /// Gives a model the spanning trees of all its patches, placed, as Model::tree, and notes how long they are.
 void add_trees(Model& model);
 
-/// Gives a model the shortest path between two vertices of a shell, placed, as Model::path, and notes how long it is.
+/// Gives a model the shortest path between two vertices of a shell, placed, as Model::path, and notes how
+/// long it is.
 ///
 /// @param shell   the id of a shell; may be empty where there is only one.
 /// @throws Error  Usage as above, or if it is not clear which shell is meant.

@@ -30,11 +30,11 @@ struct MeshWriteOptions {
 /// read back the same, but for binary STL, which is in single precision. Triangles of mirrored instances are
 /// turned.
 ///
-/// Patches are kept as groups `patch_N` (N from 1, over all instances) in OBJ, as solids of the same name in text STL,
-/// as the face property `patch` in PLY, and by a colour a face in OFF and PLY; where all have the same colour each gets
-/// one of its own. Binary STL and net have none. A net keeps the textures, the colours and texture coordinates of points,
-/// and polygons for as long as their triangles are unchanged; a line of it has at most 79 bytes, as old readers need it,
-/// unless colours have tiny numbers.
+/// Patches are kept as groups `patch_N` (N from 1, over all instances) in OBJ, as solids of the same name in
+/// text STL, as the face property `patch` in PLY, and by a colour a face in OFF and PLY; where all have the
+/// same colour each gets one of its own. Binary STL and net have none. A net keeps the textures, the colours
+/// and texture coordinates of points, and polygons for as long as their triangles are unchanged; a line of it
+/// has at most 79 bytes, as old readers need it, unless colours have tiny numbers.
 ///
 /// @param notes   findings are appended: triangles that collapse in single precision.
 /// @throws Error  InputOutput from the sink; BadData if a coordinate does not fit single precision, or there

@@ -22,8 +22,8 @@ struct Patch {
   std::size_t triangle_count = 0;
 };
 
-/// The faces of a file that has polygons, as they stand there; cut into fans from their first corners they give
-/// the triangles of the shell, as long as nothing changes these.
+/// The faces of a file that has polygons, as they stand there; cut into fans from their first corners they
+/// give the triangles of the shell, as long as nothing changes these.
 struct Polygons {
   std::vector<Index> sizes;    ///< corners of each, 3 or more
   std::vector<Index> corners;  ///< of all, indices into Shell::points
@@ -36,12 +36,15 @@ struct Shell {
   std::vector<Point> points;  ///< finite; a point may be used by several patches, or by none
   std::vector<Triangle> triangles;
   std::vector<Patch> patches;
-  std::vector<Vector> corner_normals;  ///< 3 a triangle, of length 1, or (0,0,0) where unknown; or the whole list empty
-  std::vector<double> details;  ///< one a point: the length of its wavelet coefficient, for pictures; or empty
+  std::vector<Vector>
+      corner_normals;  ///< 3 a triangle, of length 1, or (0,0,0) where unknown; or the whole list empty
+  std::vector<double>
+      details;  ///< one a point: the length of its wavelet coefficient, for pictures; or empty
   std::vector<std::array<Index, 2>> creases;  ///< sharp edges inside a patch, sorted: drawn, but no boundary
-  std::vector<Eigen::Vector4d> point_colors;  ///< red, green, blue and alpha from 0 to 1, one a point; or empty
+  std::vector<Eigen::Vector4d>
+      point_colors;  ///< red, green, blue and alpha from 0 to 1, one a point; or empty
   std::vector<Eigen::Vector2d> texture_coordinates;  ///< one a point; or empty
-  Polygons polygons;                                 ///< of a control mesh that has others than triangles; or empty
+  Polygons polygons;  ///< of a control mesh that has others than triangles; or empty
 
   /// The triangles of one patch.
   std::span<const Triangle> patch_triangles(std::size_t patch) const {
@@ -51,9 +54,9 @@ struct Shell {
 
 /// One occurrence of a shell in the model.
 struct Instance {
-  std::size_t shell = 0;        ///< index into Model::shells
+  std::size_t shell = 0;                                    ///< index into Model::shells
   Eigen::Affine3d placement = Eigen::Affine3d::Identity();  ///< shell frame to model frame; may mirror
-  std::string path;             ///< product and shape ids from the root, joined by '/'
+  std::string path;  ///< product and shape ids from the root, joined by '/'
 };
 
 /// A line drawing that comes with the model (PMI, construction geometry), already placed in the model frame.
@@ -62,7 +65,8 @@ struct Polyline {
   std::vector<Point> points;
 };
 
-/// A point of a curve with a right-handed frame: (normal, binormal, tangent) are of length 1 and perpendicular.
+/// A point of a curve with a right-handed frame: (normal, binormal, tangent) are of length 1 and
+/// perpendicular.
 struct CurveFrame {
   Point position = Point::Zero();
   Vector tangent = Vector::UnitZ(), normal = Vector::UnitX(), binormal = Vector::UnitY();
@@ -104,8 +108,8 @@ Box bounding_box(const Shell& shell);
 Box bounding_box(const Model& model);
 
 /// Checks what every stage relies on: indices in range, points finite, patches a partition of the triangles,
-/// corner normals none or three a triangle, colours and texture coordinates none or one a point, instances naming
-/// a shell.
+/// corner normals none or three a triangle, colours and texture coordinates none or one a point, instances
+/// naming a shell.
 ///
 /// @throws Error   Internal, naming the shell and what is wrong: a reader or a generator broke its promise.
 void validate(const Model& model);

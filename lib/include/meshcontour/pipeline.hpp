@@ -50,24 +50,27 @@ struct Job {
   ReadOptions read;
   double input_unit = 0;  ///< metres per unit of the input, whatever it tells; 0: as it tells
   double unit = 0;        ///< metres per unit of everything after reading; 0: the input's
-  bool repair = false;  ///< cut the surface apart where it is no manifold
+  bool repair = false;    ///< cut the surface apart where it is no manifold
   SegmentOptions segment;
   PatchSelection selection;
-  std::vector<std::string> wavelets;  ///< files for the model as a progressive stream, before it is simplified
+  std::vector<std::string>
+      wavelets;  ///< files for the model as a progressive stream, before it is simplified
   WaveletStreamOptions wavelet;
-  bool remesh = true;  ///< shells that come from no subdivision, for `wavelets` and the layer Detail
+  bool remesh = true;         ///< shells that come from no subdivision, for `wavelets` and the layer Detail
   unsigned subdivisions = 0;  ///< steps of butterfly subdivision
   SubdivisionOptions subdivide;
-  SimplifyOptions simplify;   ///< after that
+  SimplifyOptions simplify;  ///< after that
   BoundaryOptions boundary;
   FitOptions fit;
-  std::optional<Index> path_from, path_to;  ///< ends of Model::path, vertices of the chosen shell; both or none
+  std::optional<Index> path_from,
+      path_to;  ///< ends of Model::path, vertices of the chosen shell; both or none
   RenderOptions render;
   WriteOptions write;
   MeshWriteOptions mesh;
-  bool preview = false;          ///< make Run::preview
+  bool preview = false;     ///< make Run::preview
   bool always_fit = false;  ///< fits curves even where no output shows them, so that a report has their times
-  bool timings_in_json = false;  ///< lists the stages' times in JSON outputs, whose bytes then change from run to run
+  bool timings_in_json =
+      false;  ///< lists the stages' times in JSON outputs, whose bytes then change from run to run
 };
 
 /// What one job gave.
@@ -81,14 +84,16 @@ struct Run {
   Preview preview;  ///< for a page, see ReportFormat::Html
 };
 
-/// Reads, cleans, segments, refines, simplifies, extracts, fits, draws and writes: the one place that knows the order of the stages and times them.
+/// Reads, cleans, segments, refines, simplifies, extracts, fits, draws and writes: the one place that knows
+/// the order of the stages and times them.
 ///
 /// All outputs appear together once everything has succeeded, or none does.
 ///
-/// Model::tree and Model::path are made when an output shows them; the path also when only its ends are given, so that
-/// its length is told in a note.
+/// Model::tree and Model::path are made when an output shows them; the path also when only its ends are
+/// given, so that its length is told in a note.
 ///
-/// @throws Error  of any stage; Usage if the selection names a shell or patch that is not there, or the ends of a path
+/// @throws Error  of any stage; Usage if the selection names a shell or patch that is not there, or the ends
+/// of a path
 ///                are wrong.
 Run run(const Job& job);
 

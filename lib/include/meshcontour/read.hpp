@@ -16,8 +16,8 @@ namespace meshcontour {
 struct NetOptions {
   bool normalise = false;  ///< centred, and scaled so that the largest coordinate is 6
   bool strict = false;     ///< a point with fewer than 3 edges, or more than 16, is an error
-  /// What repair_model mends (edges with three or more faces, faces that run the same way along an edge, bow ties)
-  /// is a warning; without it, an error.
+  /// What repair_model mends (edges with three or more faces, faces that run the same way along an edge, bow
+  /// ties) is a warning; without it, an error.
   bool mend = false;
 };
 
@@ -25,12 +25,13 @@ struct NetOptions {
 struct ReadOptions {
   std::uint64_t max_triangles = 200'000'000;  ///< stored, and over all instances
   std::uint64_t max_instances = 1'000'000;
-  bool strict = false;  ///< anything that would be mended with a warning is an error
-  unsigned threads = 0; ///< 0: one per processor
-  NetOptions net;       ///< of control meshes
-  SweepOptions sweep;   ///< of files that describe sweeps; the limit and the threads above rule there too
-  /// Points of polygon files (STL, OBJ, PLY, OFF, net) no farther apart than this become one, see weld_points; vertex
-  /// indices then mean the welded list. None: only STL is welded, where coordinates are equal.
+  bool strict = false;   ///< anything that would be mended with a warning is an error
+  unsigned threads = 0;  ///< 0: one per processor
+  NetOptions net;        ///< of control meshes
+  SweepOptions sweep;    ///< of files that describe sweeps; the limit and the threads above rule there too
+  /// Points of polygon files (STL, OBJ, PLY, OFF, net) no farther apart than this become one, see
+  /// weld_points; vertex indices then mean the welded list. None: only STL is welded, where coordinates are
+  /// equal.
   std::optional<double> weld;
 };
 

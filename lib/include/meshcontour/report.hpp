@@ -72,7 +72,8 @@ struct Counts {
   std::uint64_t boundary_edges = 0;           ///< summed over the patches
   std::uint64_t loops = 0, open_chains = 0;   ///< open chains are among the loops
   std::uint64_t segments = 0;
-  std::uint64_t lines = 0, arcs = 0, circles = 0, ellipses = 0, splines = 0;  ///< segments by kind; circles are full
+  std::uint64_t lines = 0, arcs = 0, circles = 0, ellipses = 0,
+                splines = 0;  ///< segments by kind; circles are full
 };
 
 Counts counts_of(const Model& model, std::span<const ShellBoundary> boundaries,
@@ -82,7 +83,8 @@ Counts counts_of(const Model& model, std::span<const ShellBoundary> boundaries,
 void count_kinds(const Contour& contour, Counts& counts);
 
 /// The table that is printed when no output is asked for: counts, the loops of each patch, the time of each
-/// stage; and, where shells were simplified, how far. Of a model with many patches only those that stand out are listed.
+/// stage; and, where shells were simplified, how far. Of a model with many patches only those that stand out
+/// are listed.
 std::string summary(const Model& model, std::span<const ShellBoundary> boundaries,
                     std::span<const Contour> contours, std::span<const StageTime> timings,
                     std::span<const Simplification> simplifications = {});

@@ -10,8 +10,8 @@ namespace meshcontour {
 
 enum class SimplifyMethod {
   Automatic,  ///< Wavelet where the triangles come from two subdivisions or more, else Qem
-  Wavelet,    ///< details of a subdivided mesh are dropped, coarsest triangles stay; others are remeshed before
-  Qem,        ///< edges are collapsed by their quadric error [Garland & Heckbert 1997]
+  Wavelet,  ///< details of a subdivided mesh are dropped, coarsest triangles stay; others are remeshed before
+  Qem,      ///< edges are collapsed by their quadric error [Garland & Heckbert 1997]
 };
 
 /// When to stop.
@@ -35,7 +35,7 @@ struct Simplification {
   std::size_t shell = 0;  ///< index into Model::shells
   SimplifyMethod method = SimplifyMethod::Qem;
   std::size_t triangles_before = 0, triangles_after = 0;
-  unsigned levels = 0;  ///< subdivisions that the Wavelet method found or made
+  unsigned levels = 0;               ///< subdivisions that the Wavelet method found or made
   std::size_t remesh_triangles = 0;  ///< of the subdivision mesh that it made; 0: none
   double remesh_error = 0;           ///< of that mesh, as `error`
   double error = 0;  ///< two-sided Hausdorff distance, patch by patch, an upper bound within 2 %; model units

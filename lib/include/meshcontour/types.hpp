@@ -9,7 +9,8 @@ namespace meshcontour {
 using Point = Eigen::Vector3d;
 using Vector = Eigen::Vector3d;
 using Index = std::uint32_t;
-using Triangle = std::array<Index, 3>;  ///< three indices into Shell::points, counter-clockwise seen from outside
+using Triangle =
+    std::array<Index, 3>;  ///< three indices into Shell::points, counter-clockwise seen from outside
 using Box = Eigen::AlignedBox3d;
 
 /// Colour with 8 bits a channel; alpha 255 is opaque.

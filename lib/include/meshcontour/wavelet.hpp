@@ -19,9 +19,10 @@ struct SubdivisionConnectivity {
 /// Finds out whether the triangles of a shell, in whatever order, come from subdivisions [Taubin 2002];
 /// linear.
 ///
-/// The four children of a triangle must be of one patch. Shells that are no orientable manifold, or with parts of
-/// which just some were subdivided, give 0 levels. Creases inside patches do not matter, and the base has none. Where
-/// a part has several coarser meshes (a regular torus, a strip) the first that is found counts.
+/// The four children of a triangle must be of one patch. Shells that are no orientable manifold, or with
+/// parts of which just some were subdivided, give 0 levels. Creases inside patches do not matter, and the
+/// base has none. Where a part has several coarser meshes (a regular torus, a strip) the first that is found
+/// counts.
 SubdivisionConnectivity find_subdivision(const Shell& shell);
 
 /// The length of the wavelet coefficient of each point of a shell, 0 at those of the coarsest mesh; nothing

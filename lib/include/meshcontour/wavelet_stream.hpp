@@ -11,8 +11,8 @@
 namespace meshcontour {
 
 struct WaveletStreamOptions {
-  /// Step of the finest coefficients along the normal, as a share of a shell's box diagonal, in (0, 1). Along the surface
-  /// it is four times as large, at each coarser level half.
+  /// Step of the finest coefficients along the normal, as a share of a shell's box diagonal, in (0, 1). Along
+  /// the surface it is four times as large, at each coarser level half.
   double precision = 1e-6;
   SubdivisionOptions subdivide;
 };

@@ -71,8 +71,8 @@ struct WriteOptions {
 /// @throws Error   Usage if it is no whole number of seconds up to the year 9999.
 std::optional<std::int64_t> source_date_epoch();
 
-/// Writes a result; memory is bounded by one patch, whatever the size of the model, but for Glb, which is kept
-/// whole.
+/// Writes a result; memory is bounded by one patch, whatever the size of the model, but for Glb, which is
+/// kept whole.
 ///
 /// Tables (Csv, Json) list each shell once, in its own frame; geometry (Obj, Step, Dxf, Svg, Glb) holds every
 /// instance, placed, and the model's annotations and curves. Lengths are in model units, but for Glb. The
@@ -92,16 +92,17 @@ std::optional<std::int64_t> source_date_epoch();
 ///   Svg: one group a patch, one path a loop, seen from `view` without perspective.
 /// - Glb: glTF 2.0 in one file. A root node turns z up to y up and model units (unknown: millimetres) to
 /// metres; below it
-///   is a node an instance, with the mesh of its shell: a lit primitive a patch, `extras.patch` its number from
-///   1 and `extras.name` its name; nodes `edges` and `curves` below that hold the loops' polygons and the
-///   fitted contours as lines, again a primitive a patch. Nodes of one shell share these meshes unless a
+///   is a node an instance, with the mesh of its shell: a lit primitive a patch, `extras.patch` its number
+///   from 1 and `extras.name` its name; nodes `edges` and `curves` below that hold the loops' polygons and
+///   the fitted contours as lines, again a primitive a patch. Nodes of one shell share these meshes unless a
 ///   placement shears. Single precision, relative to the middle of the shell.
 /// - Json: counts, instances, patches with loops and segments exactly, diagnostics and timings. A loop's
 /// length is that
 ///   of its polygon.
 ///
 /// @param notes    findings are appended: loops that a format can hold only approximately, an unknown unit.
-/// @throws Error   InputOutput from the sink; Internal for Png; BadData if a Glb would have more than 4 GB or a
+/// @throws Error   InputOutput from the sink; Internal for Png; BadData if a Glb would have more than 4 GB or
+/// a
 ///                 coordinate does not fit single precision.
 void write_output(OutputFormat format, const Result& result, const WriteOptions& options, Sink& sink,
                   std::vector<Diagnostic>& notes);

@@ -99,8 +99,8 @@ double checked_residual(const CircularArc& arc, std::span<const Point> points, d
   return worst;
 }
 
-// The turn of the points about the arc's axis; negative when one step is backwards or too wide. Whole turns are
-// counted where the points pass the first one.
+// The turn of the points about the arc's axis; negative when one step is backwards or too wide. Whole turns
+// are counted where the points pass the first one.
 double checked_sweep(const CircularArc& arc, std::span<const Point> points, bool closed) {
   const double steepest = std::tan(kLargestStep) * (1 + 1e-12);
   const Vector first = points[0] - arc.center, sideways = arc.axis.cross(first);

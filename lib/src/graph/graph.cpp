@@ -90,8 +90,8 @@ EdgePaths minimum_spanning_tree(const Shell& shell, std::size_t patch) {
 EdgePaths shortest_path(const Shell& shell, Index from, Index to) {
   for (const Index end : {from, to}) {
     if (end >= shell.points.size()) {
-      throw Error(ErrorCode::Usage,
-                  fmt::format("there is no vertex {}: the shell has {}, numbered from 0", end, shell.points.size()));
+      throw Error(ErrorCode::Usage, fmt::format("there is no vertex {}: the shell has {}, numbered from 0",
+                                                end, shell.points.size()));
     }
     const auto uses = [&](const Triangle& t) { return std::ranges::find(t, end) != t.end(); };
     if (std::ranges::none_of(shell.triangles, uses)) {
@@ -138,9 +138,10 @@ void append(std::vector<Polyline>& lines, std::vector<Polyline> more) {
 std::size_t chosen_shell(const Model& model, const std::string& id) {
   if (id.empty() && model.shells.size() == 1) return 0;
   if (id.empty()) {
-    throw Error(ErrorCode::Usage, fmt::format("a path needs --shell ID: the model has {} shells, each with vertices "
-                                              "of its own",
-                                              model.shells.size()));
+    throw Error(ErrorCode::Usage,
+                fmt::format("a path needs --shell ID: the model has {} shells, each with vertices "
+                            "of its own",
+                            model.shells.size()));
   }
   const auto found = std::ranges::find(model.shells, id, &Shell::id);
   if (found == model.shells.end()) {
@@ -159,7 +160,8 @@ void add_trees(Model& model) {
     for (std::size_t p = 0; p < shell.patches.size(); ++p) {
       if (shell.patches[p].triangle_count == 0) continue;
       const EdgePaths tree = minimum_spanning_tree(shell, p);
-      append(model.tree, placed_lines(model, s, tree, fmt::format("shell_{}_patch_{}_tree", shell.id, p + 1)));
+      append(model.tree,
+             placed_lines(model, s, tree, fmt::format("shell_{}_patch_{}_tree", shell.id, p + 1)));
       length += tree.length;
       ++patches;
     }

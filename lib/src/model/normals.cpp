@@ -60,7 +60,9 @@ struct Incidence {
 void smooth(std::span<const std::size_t> corners, const std::vector<Facet>& facets,
             std::vector<Normal>& normals) {
   Vector all = Vector::Zero();
-  const auto share = [&](std::size_t c) { return Vector(facets[c / 3].angles[c % 3] * facets[c / 3].normal); };
+  const auto share = [&](std::size_t c) {
+    return Vector(facets[c / 3].angles[c % 3] * facets[c / 3].normal);
+  };
   for (const std::size_t c : corners) all += share(c);
   for (const std::size_t c : corners) {
     const Vector& own = facets[c / 3].normal;

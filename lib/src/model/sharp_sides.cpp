@@ -15,8 +15,8 @@ constexpr std::size_t kTrianglesAtATime = 1 << 14;
 // single-precision coordinates move its corners by about as much.
 constexpr double kThinnestReliable = 0x1p-22;
 
-// Rounding must not tell apart edges that are folded by just the angle, as those of a chamfer are: all of them count
-// as sharp.
+// Rounding must not tell apart edges that are folded by just the angle, as those of a chamfer are: all of
+// them count as sharp.
 constexpr double kAngleRounding = 1e-4;  // radians
 
 // Directions of triangles. Lengths are scaled by a power of two, so that no product overflows or vanishes.

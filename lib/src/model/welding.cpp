@@ -105,7 +105,8 @@ std::size_t weld_points(Shell& shell, double tolerance) {
   const std::size_t before = shell.points.size();
   const bool exact = tolerance == 0 || largest_coordinate(shell.points) / tolerance > kMostCells;
   const std::vector<Index> numbers = exact ? weld_equal(shell.points) : weld_near(shell.points, tolerance);
-  // Numbers are given by first appearance, so that an attribute moves down only, and its place was read before.
+  // Numbers are given by first appearance, so that an attribute moves down only, and its place was read
+  // before.
   Index kept = 0;
   for (std::size_t v = 0; v < before; ++v) {
     if (numbers[v] == kept) detail::copy_point_attributes(shell, v, kept++);

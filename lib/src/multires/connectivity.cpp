@@ -22,7 +22,7 @@ struct Connectivity {
   std::vector<Index> twins;
   std::vector<std::size_t> patches;  // of each triangle
   std::vector<Index> centres;        // of each triangle: in the next finer level the middle one of its four;
-                               // halfedge 3 t + k lies along 3 c + k
+                                     // halfedge 3 t + k lies along 3 c + k
 
   Index start(Index h) const { return triangles[h / 3][h % 3]; }
 };

@@ -138,8 +138,7 @@ class Collapser {
 
 }  // namespace
 
-Shell collapsed(const Shell& shell, std::size_t triangles, double limit, unsigned threads,
-                bool keep_sharp) {
+Shell collapsed(const Shell& shell, std::size_t triangles, double limit, unsigned threads, bool keep_sharp) {
   Collapser collapser(shell, limit, threads, keep_sharp);
   collapser.run(triangles);
   return collapser.mesh().to_shell(shell);

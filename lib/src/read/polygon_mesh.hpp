@@ -27,8 +27,8 @@ class PolygonMesh {
   explicit PolygonMesh(const ReadContext& context);
 
   std::vector<Point> points;
-  std::vector<Vector> normals;  ///< that corners may name; of any length
-  std::vector<Group> groups;    ///< that polygons may name
+  std::vector<Vector> normals;                       ///< that corners may name; of any length
+  std::vector<Group> groups;                         ///< that polygons may name
   std::vector<Eigen::Vector4d> point_colors;         ///< one a point, or none; as in Shell
   std::vector<Eigen::Vector2d> texture_coordinates;  ///< the same
 

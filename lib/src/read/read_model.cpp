@@ -53,17 +53,20 @@ void check_range(const Model& model, const std::string& file) {
     if (!in_range(box, kLargest)) refuse_vertex(shell, file);
   }
   for (const Instance& instance : model.instances) {
-    if (boxes[instance.shell].isEmpty() || in_range(boxes[instance.shell].transformed(instance.placement), kLargestPlaced)) {
+    if (boxes[instance.shell].isEmpty() ||
+        in_range(boxes[instance.shell].transformed(instance.placement), kLargestPlaced)) {
       continue;
     }
-    throw Error(ErrorCode::BadData, fmt::format("a part is placed beyond {}, the limit of coordinates", kLargestPlaced),
+    throw Error(ErrorCode::BadData,
+                fmt::format("a part is placed beyond {}, the limit of coordinates", kLargestPlaced),
                 {file, 0, 0, "shell " + printable(model.shells[instance.shell].id, 80)});
   }
   for (const Polyline& line : model.annotations) {
     Box box;
     for (const Point& p : line.points) box.extend(p);
     if (!in_range(box, kLargestPlaced)) {
-      throw Error(ErrorCode::BadData, fmt::format("it lies beyond {}, the limit of coordinates", kLargestPlaced),
+      throw Error(ErrorCode::BadData,
+                  fmt::format("it lies beyond {}, the limit of coordinates", kLargestPlaced),
                   {file, 0, 0, "annotation " + printable(line.name, 80)});
     }
   }

@@ -47,8 +47,8 @@ bool is_binary(std::string_view head, std::uint64_t size) {
 
 using Corner = std::array<float, 3>;
 
-// Remembers the numbers of corners met lately: most facets share corners with those just before them, so that few
-// corners are looked up in the table of all points.
+// Remembers the numbers of corners met lately: most facets share corners with those just before them, so that
+// few corners are looked up in the table of all points.
 class RecentCorners {
  public:
   RecentCorners() : entries_(kEntries) {}
@@ -74,8 +74,8 @@ class RecentCorners {
   // 0 and -0, which are equal, may stand in two places.
   static std::size_t place(const Corner& corner) {
     const auto bits = [](float value) { return std::uint64_t{std::bit_cast<std::uint32_t>(value)}; };
-    const std::uint64_t mixed = (bits(corner[0]) << 32 | bits(corner[1])) * 0x9E3779B97F4A7C15 ^
-                                bits(corner[2]) * 0xE7037ED1A0B428DB;
+    const std::uint64_t mixed =
+        (bits(corner[0]) << 32 | bits(corner[1])) * 0x9E3779B97F4A7C15 ^ bits(corner[2]) * 0xE7037ED1A0B428DB;
     return static_cast<std::size_t>((mixed ^ mixed >> 29) * 0x8EBC6AF09C88C6E3 >> (64 - kBits));
   }
 
@@ -108,7 +108,8 @@ class BinaryFacets {
     const std::size_t size = facets.size() / kFacetBytes;
     unknown_.clear();
     for (std::size_t i = 0; i < size; ++i) {
-      std::memcpy(corners_.data() + 3 * i, facets.data() + i * kFacetBytes + kNormalBytes, 3 * sizeof(Corner));
+      std::memcpy(corners_.data() + 3 * i, facets.data() + i * kFacetBytes + kNormalBytes,
+                  3 * sizeof(Corner));
       for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) find(k);
     }
     number_unknown();

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <functional>
 
-#include "base/text_cursor.hpp"
 #include "base/line_counter.hpp"
+#include "base/text_cursor.hpp"
 #include "read/xml_digest.hpp"
 #include "read/xml_scanner.hpp"
 #include "read/xml_words.hpp"

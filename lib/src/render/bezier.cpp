@@ -104,7 +104,8 @@ void join_chords(std::vector<Chord>& row, double tolerance) {
       const Chord chord = row[i++];
       row[kept] = chord;
       if (i == before || chord.start == row[i].end) continue;
-      const double error = std::max(chord.error, row[i].error) + segment_distance(chord.end, chord.start, row[i].end);
+      const double error =
+          std::max(chord.error, row[i].error) + segment_distance(chord.end, chord.start, row[i].end);
       if (error <= tolerance) row[kept] = {chord.start, row[i++].end, error};
     }
     row.resize(kept);

@@ -38,8 +38,8 @@ struct Chord {
   double error = 0;
 };
 
-/// Joins neighbours of a row of chords, each of which begins where the one before ends, while they stay within
-/// `tolerance`; those whose own error is larger stay. Linear: each pass halves what it joins.
+/// Joins neighbours of a row of chords, each of which begins where the one before ends, while they stay
+/// within `tolerance`; those whose own error is larger stay. Linear: each pass halves what it joins.
 void join_chords(std::vector<Chord>& row, double tolerance);
 
 }  // namespace meshcontour::detail

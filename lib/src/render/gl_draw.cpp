@@ -70,8 +70,8 @@ Eigen::Matrix4d tile_projection(const Scene& scene, const Tile& tile) {
   return to_tile * scene.projection;
 }
 
-// A tile is a window onto the whole picture's viewport, which changes no coordinate but by whole samples. Pictures that
-// are too large for a viewport have one for each tile.
+// A tile is a window onto the whole picture's viewport, which changes no coordinate but by whole samples.
+// Pictures that are too large for a viewport have one for each tile.
 void set_view(const Scene& scene, const Tile& tile) {
   const int width = scene.samples_across * scene.width, height = scene.samples_across * scene.height;
   glMatrixMode(GL_PROJECTION);
@@ -84,7 +84,8 @@ void set_view(const Scene& scene, const Tile& tile) {
   }
 }
 
-// Vertices in their final colours, a part of a range at a time: it stays in the cache. Whole triangles and lines.
+// Vertices in their final colours, a part of a range at a time: it stays in the cache. Whole triangles and
+// lines.
 using Part = std::array<ShadedVertex, 6 << 9>;
 
 void set_state(const Part& part, bool with_depth) {
@@ -153,8 +154,8 @@ bool needs_depth(const Scene& scene) {
   });
 }
 
-// Half the widest line, in samples: a line as wide as that lies in front of the faces that meet in it, however steep
-// they are.
+// Half the widest line, in samples: a line as wide as that lies in front of the faces that meet in it,
+// however steep they are.
 float widest_half(const Scene& scene) {
   float size = 0;
   for (const Batch& batch : scene.batches) {
@@ -185,8 +186,8 @@ bool draw_legend(const Scene& scene, Part& part) {
   return scene.model_batches < scene.batches.size();
 }
 
-// The last picture's framebuffer serves the next unless it is too small or much too large: most of a small picture's
-// time goes into fresh pages.
+// The last picture's framebuffer serves the next unless it is too small or much too large: most of a small
+// picture's time goes into fresh pages.
 void bind_framebuffer(int width, int height) {
   static std::unique_ptr<Framebuffer>& last = *new std::unique_ptr<Framebuffer>;  // outlives the rasterizer
   const auto area = [](int a, int b) { return static_cast<std::int64_t>(a) * b; };
@@ -237,8 +238,8 @@ bool draw_scene(Scene& scene, int largest_tile, NurbsTessellator& tessellator, I
   for (int bottom = region.bottom; bottom < region.top; bottom += height) {
     for (int left = region.left; left < region.right; left += width) {
       draw_tile(scene, {left, bottom, width, height, margin}, with_depth, *vertices);
-      const Readback part{left / across, bottom / across, width / across, height / across, margin, across,
-                          scene.background};
+      const Readback part{left / across, bottom / across, width / across,  height / across,
+                          margin,        across,          scene.background};
       something = average_into(image, part) || something;
       if (draw_legend(scene, *vertices)) average_into(image, part);
     }

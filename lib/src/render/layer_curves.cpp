@@ -159,7 +159,8 @@ class ContourBatches {
 
 }  // namespace
 
-// Curves that patches share are drawn once, in the colour of the first: at one place they would show in turns.
+// Curves that patches share are drawn once, in the colour of the first: at one place they would show in
+// turns.
 void add_curves(const Drawing& drawing, Scene& scene) {
   const auto repeated = repeated_segments(drawing.contours);
   ContourBatches batches(drawing);

@@ -28,7 +28,8 @@ class PictureLines {
 
   void add(const Vector2d& from, const Vector2d& to, const Rgba& color) {
     for (const Vector2d& p : {from, to}) {
-      vertices_.push_back({.position = {static_cast<float>(p.x()), static_cast<float>(p.y()), 0}, .color = color});
+      vertices_.push_back(
+          {.position = {static_cast<float>(p.x()), static_cast<float>(p.y()), 0}, .color = color});
     }
   }
 
@@ -44,7 +45,8 @@ class PictureLines {
 
   void append_to(Scene& scene) {
     // Lines of two samples would fill small letters.
-    Batch batch = make_batch(drawing_, Batch::Kind::Lines, drawing_.frames.size(), scene.samples_across == 1 ? 1 : kLine);
+    Batch batch = make_batch(drawing_, Batch::Kind::Lines, drawing_.frames.size(),
+                             scene.samples_across == 1 ? 1 : kLine);
     batch.bias = 0;
     append(scene, std::move(batch), vertices_);
   }
@@ -76,7 +78,8 @@ void add_axes(const Drawing& drawing, Scene& scene) {
     lines.add(origin, origin + length * axis, color);
     // An axis that points at the viewer has its letter beside the origin.
     const bool seen = axis.norm() > 0.2;
-    const Vector2d end = seen ? Vector2d(length * axis + letter * axis.normalized()) : Vector2d(-letter, -letter);
+    const Vector2d end =
+        seen ? Vector2d(length * axis + letter * axis.normalized()) : Vector2d(-letter, -letter);
     lines.add_text(std::string_view("XYZ").substr(static_cast<std::size_t>(i), 1), origin + end, color);
   }
   lines.append_to(scene);
@@ -90,7 +93,8 @@ void add_scale(const Drawing& drawing, Scene& scene) {
   const Rgba& color = drawing.palette.scale;
   PictureLines lines(drawing);
   lines.add(left, right, color);
-  for (const Vector2d& end : {left, right}) lines.add(end - Vector2d(0, tick), end + Vector2d(0, tick), color);
+  for (const Vector2d& end : {left, right})
+    lines.add(end - Vector2d(0, tick), end + Vector2d(0, tick), color);
   const std::string_view unit = unit_symbol(drawing.model.metres_per_unit);
   const std::string text = fmt::format("{:.15g}{}{}", length, unit.empty() ? "" : " ", unit);
   lines.add_text(text, (left + right) / 2 + Vector2d(0, 1.2 * kLetter * scale), color);

@@ -41,7 +41,9 @@ bool by_points(const Drawing& drawing, const Shell& shell) {
 
 Rgba point_color(const Shell& shell, Index point) {
   const Eigen::Vector4d& color = shell.point_colors[point];
-  const auto channel = [&](int i) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(color[i], 0., 1.))); };
+  const auto channel = [&](int i) {
+    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(color[i], 0., 1.)));
+  };
   return {channel(0), channel(1), channel(2), 255};
 }
 
@@ -53,10 +55,14 @@ Vertex lit_vertex(const LocalFrame& frame, const Point& p, const Eigen::Vector3f
   return {{local.x(), local.y(), local.z()}, {fixed(0), fixed(1), fixed(2), 0}, color};
 }
 
-// From light through yellow and red to dark: a coefficient of the largest size, and ones smaller by powers of ten.
+// From light through yellow and red to dark: a coefficient of the largest size, and ones smaller by powers of
+// ten.
 Rgba detail_color(double size, double largest) {
-  constexpr std::array<Rgba, 5> kScale = {
-      {{247, 247, 250, 255}, {255, 237, 160, 255}, {254, 178, 76, 255}, {227, 60, 40, 255}, {110, 0, 50, 255}}};
+  constexpr std::array<Rgba, 5> kScale = {{{247, 247, 250, 255},
+                                           {255, 237, 160, 255},
+                                           {254, 178, 76, 255},
+                                           {227, 60, 40, 255},
+                                           {110, 0, 50, 255}}};
   constexpr double kDecades = 4;
   if (!(size > 0) || !(largest > 0)) return kScale.front();
   const double at = std::clamp(1 + std::log10(size / largest) / kDecades, 0.0, 1.0) * (kScale.size() - 1);
@@ -80,16 +86,18 @@ void fill_triangles(const Drawing& drawing, std::size_t s, const std::vector<Rgb
   for (std::size_t p = 0; p < shell.patches.size(); ++p) {
     const Rgba flat_color = face_color(drawing, s, p);
     const Patch& patch = shell.patches[p];
-    parallel_for(patch.triangle_count, kGrain, drawing.options.threads,
-                 [&](std::size_t begin, std::size_t end) {
-                   for (std::size_t t = patch.first_triangle + begin; t < patch.first_triangle + end; ++t) {
-                     for (std::size_t c = 0; c < 3; ++c) {
-                       const Index v = shell.triangles[t][c];
-                       const Rgba color = !colors.empty() ? colors[v] : colored_points ? point_color(shell, v) : flat_color;
-                       corners[3 * t + c] = lit_vertex(drawing.frames[s], shell.points[v], normals[3 * t + c], color);
-                     }
-                   }
-                 });
+    parallel_for(
+        patch.triangle_count, kGrain, drawing.options.threads, [&](std::size_t begin, std::size_t end) {
+          for (std::size_t t = patch.first_triangle + begin; t < patch.first_triangle + end; ++t) {
+            for (std::size_t c = 0; c < 3; ++c) {
+              const Index v = shell.triangles[t][c];
+              const Rgba color = !colors.empty()  ? colors[v]
+                                 : colored_points ? point_color(shell, v)
+                                                  : flat_color;
+              corners[3 * t + c] = lit_vertex(drawing.frames[s], shell.points[v], normals[3 * t + c], color);
+            }
+          }
+        });
   }
 }
 
@@ -101,7 +109,8 @@ void add_triangles(const Drawing& drawing, bool by_detail, Scene& scene) {
     batch.bias = 0;
     batch.range.first = scene.vertices.size();
     batch.range.count = 3 * triangles;
-    scene.vertices.reserve(batch.range.first + 2 * batch.range.count);  // lines will follow; pages not used cost nothing
+    scene.vertices.reserve(batch.range.first +
+                           2 * batch.range.count);  // lines will follow; pages not used cost nothing
     scene.vertices.resize(batch.range.first + batch.range.count);
     fill_triangles(drawing, s, by_detail ? detail_colors(drawing.model.shells[s]) : std::vector<Rgba>{},
                    scene.vertices.data() + batch.range.first);
@@ -143,7 +152,8 @@ void append_edges(const Drawing& drawing, std::size_t s, const std::vector<Edge>
   for (const Edge& edge : edges) {
     const bool own = patches_have_lines(drawing) && edge.patch < shell.patches.size();
     const Rgba line_color = own ? patch_line_color(drawing, s, edge.patch) : color;
-    for (const Index v : edge.ends) vertices.push_back(flat_vertex(drawing.frames[s], shell.points[v], line_color));
+    for (const Index v : edge.ends)
+      vertices.push_back(flat_vertex(drawing.frames[s], shell.points[v], line_color));
   }
   append(scene, make_batch(drawing, Batch::Kind::Lines, s, width), vertices);
 }
@@ -203,7 +213,8 @@ void add_points(const Drawing& drawing, Scene& scene) {
 }
 
 // Lines in the frame of the model.
-void add_lines(const Drawing& drawing, std::span<const Polyline> lines, const Rgba& color, float width, Scene& scene) {
+void add_lines(const Drawing& drawing, std::span<const Polyline> lines, const Rgba& color, float width,
+               Scene& scene) {
   const std::size_t frame = drawing.frames.size() - 1;
   std::vector<Vertex> vertices;
   for (const Polyline& line : lines) {
@@ -234,18 +245,18 @@ struct LayerRow {
 };
 
 constexpr std::array<LayerRow, 13> kLayers = {{{Layer::Mesh, add_mesh},
-                                              {Layer::Detail, add_detail},
-                                              {Layer::Edges, add_edges},
-                                              {Layer::Curves, add_curves},
-                                              {Layer::Control, add_control},
-                                              {Layer::Wireframe, add_wireframe},
-                                              {Layer::Points, add_points},
-                                              {Layer::Frames, add_frames},
-                                              {Layer::Annotations, add_annotations},
-                                              {Layer::Tree, add_tree},
-                                              {Layer::Path, add_path},
-                                              {Layer::Axes, add_axes},
-                                              {Layer::Scale, add_scale}}};
+                                               {Layer::Detail, add_detail},
+                                               {Layer::Edges, add_edges},
+                                               {Layer::Curves, add_curves},
+                                               {Layer::Control, add_control},
+                                               {Layer::Wireframe, add_wireframe},
+                                               {Layer::Points, add_points},
+                                               {Layer::Frames, add_frames},
+                                               {Layer::Annotations, add_annotations},
+                                               {Layer::Tree, add_tree},
+                                               {Layer::Path, add_path},
+                                               {Layer::Axes, add_axes},
+                                               {Layer::Scale, add_scale}}};
 
 }  // namespace
 

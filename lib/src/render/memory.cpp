@@ -66,7 +66,8 @@ std::uint64_t available_memory() {
 void require_memory(const Scene& scene, int largest_tile) {
   const auto width = static_cast<std::uint64_t>(scene.width),
              height = static_cast<std::uint64_t>(scene.height);
-  const auto tile = static_cast<std::uint64_t>(largest_tile), across = static_cast<std::uint64_t>(scene.samples_across);
+  const auto tile = static_cast<std::uint64_t>(largest_tile),
+             across = static_cast<std::uint64_t>(scene.samples_across);
   constexpr std::uint64_t kPixel = 4, kSample = 8;  // bytes: colour; colour and depth
   const std::uint64_t picture =
       kPixel * width * height + kSample * std::min(across * width, tile) * std::min(across * height, tile);

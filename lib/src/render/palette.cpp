@@ -62,15 +62,17 @@ Rgba mixed(const Rgba& color, const Rgba& other, double share) {
 Palette make_palette(const RenderOptions& options) {
   constexpr Rgba red{255, 0, 0, 255}, magenta{255, 0, 255, 255};
   constexpr std::array<Rgba, 3> axes = {{{210, 40, 40, 255}, {30, 140, 60, 255}, {40, 80, 220, 255}}};
-  if (options.view == View::Report) return {{230, 0, 0, 255}, red, magenta, red, red, kBlue, kGreen, kBlack, kGreen, kBlue, kBlack, axes};
+  if (options.view == View::Report)
+    return {{230, 0, 0, 255}, red, magenta, red, red, kBlue, kGreen, kBlack, kGreen, kBlue, kBlack, axes};
   Palette palette{{200, 205, 212, 255}, {40, 40, 44, 255},   {214, 0, 110, 255}, {90, 96, 104, 255},
                   {0, 90, 200, 255},    {235, 125, 20, 255}, {0, 110, 60, 255},  {60, 60, 150, 255},
                   {0, 130, 90, 255},    {200, 30, 30, 255},  {40, 40, 44, 255},  axes};
   if (is_dark(options.background)) {
-    for (Rgba* color : {&palette.edges, &palette.wireframe, &palette.scale}) *color = mixed(*color, kWhite, 0.7);
+    for (Rgba* color : {&palette.edges, &palette.wireframe, &palette.scale})
+      *color = mixed(*color, kWhite, 0.7);
     for (Rgba* color :
-         {&palette.curves, &palette.points, &palette.control, &palette.knots, &palette.annotations, &palette.tree,
-          &palette.path, &palette.axes[0], &palette.axes[1], &palette.axes[2]}) {
+         {&palette.curves, &palette.points, &palette.control, &palette.knots, &palette.annotations,
+          &palette.tree, &palette.path, &palette.axes[0], &palette.axes[1], &palette.axes[2]}) {
       *color = mixed(*color, kWhite, 0.4);
     }
   }

@@ -62,9 +62,10 @@ Image draw(Scene& scene, const GlSettings& settings, GlBackend wanted) {
     switch (outcome.status) {
       case GlOutcome::Status::Done:
         if (!outcome.blank) return image;
-        throw Error(ErrorCode::BadData,
-                    "the picture would be blank: all that is drawn lies outside the view, is smaller than a pixel or "
-                    "has the background's colour");
+        throw Error(
+            ErrorCode::BadData,
+            "the picture would be blank: all that is drawn lies outside the view, is smaller than a pixel or "
+            "has the background's colour");
       case GlOutcome::Status::OutOfMemory:
         throw Error(ErrorCode::OutOfMemory, outcome.message);
       case GlOutcome::Status::Failed:
@@ -84,7 +85,8 @@ std::vector<std::string> renderers() {
   std::vector<std::string> names;
   std::string failure;
   for (const GlBackend backend : detail::backends(GlBackend::Automatic)) {
-    if (detail::load_gl_module(backend, failure) != nullptr) names.emplace_back(detail::backend_name(backend));
+    if (detail::load_gl_module(backend, failure) != nullptr)
+      names.emplace_back(detail::backend_name(backend));
   }
   return names;
 }

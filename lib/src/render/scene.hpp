@@ -13,8 +13,8 @@
 
 namespace meshcontour::detail {
 
-/// A corner of a triangle, an end of a line or a point. One layout for all, in one array. Positions are in a frame of
-/// the shell's own, centred and scaled to [-1, 1].
+/// A corner of a triangle, an end of a line or a point. One layout for all, in one array. Positions are in a
+/// frame of the shell's own, centred and scaled to [-1, 1].
 struct Vertex {
   std::array<float, 3> position;
   std::array<std::int16_t, 4> normal{0, 0, 32767,
@@ -54,17 +54,17 @@ struct Batch {
   enum class Kind { Triangles, Lines, Points };
 
   Kind kind = Kind::Triangles;
-  std::size_t frame = 0;             ///< into Scene::frames
-  float size = 1;                    ///< line width or point diameter, pixels of the picture
-  double bias = 0;                   ///< drawn nearer to the viewer by this, in eye units
-  VertexRange range;                 ///< 3 a triangle, 2 a line, 1 a point
-  std::vector<CurveRun> runs;        ///< Lines: further lines
-  std::vector<float> control;        ///< of the runs
-  VertexRange chords;                ///< of the runs, once the module has made them
+  std::size_t frame = 0;       ///< into Scene::frames
+  float size = 1;              ///< line width or point diameter, pixels of the picture
+  double bias = 0;             ///< drawn nearer to the viewer by this, in eye units
+  VertexRange range;           ///< 3 a triangle, 2 a line, 1 a point
+  std::vector<CurveRun> runs;  ///< Lines: further lines
+  std::vector<float> control;  ///< of the runs
+  VertexRange chords;          ///< of the runs, once the module has made them
 };
 
-/// One occurrence of a frame. There may be millions; the rasterizer takes single precision, once the bias of a batch
-/// has been added to the depth.
+/// One occurrence of a frame. There may be millions; the rasterizer takes single precision, once the bias of
+/// a batch has been added to the depth.
 struct Placement {
   Eigen::Matrix4f to_eye;
   double depth = 0;  ///< to_eye(2, 3)
@@ -72,16 +72,17 @@ struct Placement {
 };
 
 struct Scene {
-  int width = 0, height = 0;           ///< pixels of the picture
-  int samples_across = 2;              ///< a pixel is the mean of that many rows of that many samples
-  bool lit = true;                     ///< faces are shaded by light
-  Eigen::Matrix4d projection;          ///< eye to clip coordinates
+  int width = 0, height = 0;                 ///< pixels of the picture
+  int samples_across = 2;                    ///< a pixel is the mean of that many rows of that many samples
+  bool lit = true;                           ///< faces are shaded by light
+  Eigen::Matrix4d projection;                ///< eye to clip coordinates
   std::array<std::uint8_t, 4> background{};  ///< red, green, blue times alpha; alpha
   std::vector<std::vector<Placement>>
       frames;                    ///< a shell's, the model's own, and the last for pixels of the picture
   std::vector<Vertex> vertices;  ///< of all batches
   std::vector<Batch> batches;    ///< in drawing order
-  std::size_t model_batches = 0;  ///< the first of these show the model, the rest only how to read the picture
+  std::size_t model_batches =
+      0;  ///< the first of these show the model, the rest only how to read the picture
 };
 
 }  // namespace meshcontour::detail

@@ -104,7 +104,8 @@ void add_frames(Drawing& drawing) {
   for (const Shell& shell : drawing.model.shells) {
     const Box box = bounding_box(shell);
     drawing.frames.push_back(local_frame(box));
-    drawing.extents.push_back(box.isEmpty() ? Vector::Zero() : Vector(box.sizes() / 2 / drawing.frames.back().size));
+    drawing.extents.push_back(box.isEmpty() ? Vector::Zero()
+                                            : Vector(box.sizes() / 2 / drawing.frames.back().size));
     drawing.first_patch.push_back(patches);
     patches += shell.patches.size();
   }

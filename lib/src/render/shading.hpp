@@ -6,8 +6,8 @@
 
 namespace meshcontour::detail {
 
-/// A vertex in the colour that it has in the picture. One layout for faces, lines and points: another would have the
-/// rasterizer compile further programs.
+/// A vertex in the colour that it has in the picture. One layout for faces, lines and points: another would
+/// have the rasterizer compile further programs.
 struct ShadedVertex {
   std::array<float, 3> position;
   std::array<float, 4> color;  ///< 0 to 1

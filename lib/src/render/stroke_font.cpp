@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kHeight = 6, kAdvance = 6, kGap = 2;  // of the grid
 
-// Polylines on a grid of 5 columns and 7 rows: a digit for x and one for y a point, a space between polylines.
+// Polylines on a grid of 5 columns and 7 rows: a digit for x and one for y a point, a space between
+// polylines.
 constexpr std::array<std::pair<char, std::string_view>, 27> kGlyphs = {{
     {'0', "103041453616050110"},
     {'1', "152620 1030"},
@@ -52,7 +53,8 @@ std::vector<Eigen::Vector2d> text_strokes(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const std::string_view strokes = glyph(text[i]);
     const auto at = [&](std::size_t k) -> Eigen::Vector2d {
-      return Eigen::Vector2d(kAdvance * static_cast<double>(i) + (strokes[k] - '0'), strokes[k + 1] - '0') / kHeight;
+      return Eigen::Vector2d(kAdvance * static_cast<double>(i) + (strokes[k] - '0'), strokes[k + 1] - '0') /
+             kHeight;
     };
     for (std::size_t k = 0; k + 3 < strokes.size();) {
       if (strokes[k + 2] == ' ') {

@@ -27,7 +27,9 @@ struct Footprint {
 
 class Footprints {
  public:
-  explicit Footprints(const Scene& scene) : projection_(scene.projection), size_(scene.samples_across / 2.0 * Eigen::Vector2d(scene.width, scene.height)) {}
+  explicit Footprints(const Scene& scene)
+      : projection_(scene.projection),
+        size_(scene.samples_across / 2.0 * Eigen::Vector2d(scene.width, scene.height)) {}
 
   bool possible() const { return projection_.row(3) == Eigen::RowVector4d(0, 0, 0, 1); }
 
@@ -100,7 +102,8 @@ Batch dot_for(const Batch& batch, std::size_t frame, std::vector<Vertex>& vertic
   dot.range.first = vertices.size();
   dot.range.count = 1;
   vertices.push_back(
-      {.position = {}, .color = batch.range.count > 0 ? vertices[batch.range.first].color : batch.runs[0].color});
+      {.position = {},
+       .color = batch.range.count > 0 ? vertices[batch.range.first].color : batch.runs[0].color});
   return dot;
 }
 

@@ -4,9 +4,10 @@
 
 namespace meshcontour::detail {
 
-/// Leaves out placements that leave no trace or cannot be told apart, in frames that have very many. Faces: those that
-/// no sample lies in. Lines and points of placements smaller than an eighth of a pixel: these become dots, as wide as
-/// the lines, of which the nearest of each eighth of a pixel is drawn. Does nothing in perspective.
+/// Leaves out placements that leave no trace or cannot be told apart, in frames that have very many. Faces:
+/// those that no sample lies in. Lines and points of placements smaller than an eighth of a pixel: these
+/// become dots, as wide as the lines, of which the nearest of each eighth of a pixel is drawn. Does nothing
+/// in perspective.
 ///
 /// O(n log n) in the placements.
 ///

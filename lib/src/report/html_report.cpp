@@ -1,4 +1,5 @@
-// One page for people, without anything from the network: a table of the files, and the 3D views of their models.
+// One page for people, without anything from the network: a table of the files, and the 3D views of their
+// models.
 
 #include <algorithm>
 
@@ -60,8 +61,8 @@ void write_summary(std::span<const FileReport> files, const std::string& title, 
   };
   out.print("<h1>{}</h1>\n<p>{} done, {} failed, {} skipped</p>\n", title, number(FileReport::Outcome::Done),
             number(FileReport::Outcome::Failed), number(FileReport::Outcome::Skipped));
-  out.print("<p class=\"note\">meshcontour {}, {} UTC, {} ({}, {} of its processors)</p>\n", version(), iso_time(time),
-            html_text(machine.host), html_text(machine.cpu), machine.cores);
+  out.print("<p class=\"note\">meshcontour {}, {} UTC, {} ({}, {} of its processors)</p>\n", version(),
+            iso_time(time), html_text(machine.host), html_text(machine.cpu), machine.cores);
 }
 
 void write_totals(std::span<const FileReport> files, TextWriter& out) {
@@ -77,7 +78,8 @@ void write_totals(std::span<const FileReport> files, TextWriter& out) {
     const std::string_view color = stage_class(stage);
     out.print(
         "<tr><th scope=\"row\"><span class=\"key {}\"></span>{}</th><td class=\"number\">{}</td>"
-        "<td class=\"number\">{:.0f} %</td><td><div class=\"bars\"><i class=\"{}\" style=\"width:{:.2f}%\"></i></div></td>"
+        "<td class=\"number\">{:.0f} %</td><td><div class=\"bars\"><i class=\"{}\" "
+        "style=\"width:{:.2f}%\"></i></div></td>"
         "</tr>\n",
         color, html_text(stage), duration(milliseconds), 100 * milliseconds / sum, color,
         100 * milliseconds / longest);
@@ -121,7 +123,8 @@ void write_models(std::span<const FileReport> files, TextWriter& out) {
 
 }  // namespace
 
-void write_html_report(std::span<const FileReport> files, const Machine& machine, std::int64_t time, Sink& sink) {
+void write_html_report(std::span<const FileReport> files, const Machine& machine, std::int64_t time,
+                       Sink& sink) {
   TextWriter out(sink);
   const std::string title =
       files.size() == 1 ? html_text(stable_name(files.front().file)) : counted(files.size());
@@ -129,9 +132,11 @@ void write_html_report(std::span<const FileReport> files, const Machine& machine
   write_summary(files, title, machine, time, out);
   write_totals(files, out);
   out.text("<h2>Files</h2>\n");
-  out.print("<p class=\"note\">Deviation: upper bound of the distance of contours and loops, in model units. Time: median of "
-            "the runs. 3D views need WebGL; models up to {} each and {} a page are in it.</p>\n",
-            byte_size(kLargestPreviewModel), byte_size(kLargestPageModels));
+  out.print(
+      "<p class=\"note\">Deviation: upper bound of the distance of contours and loops, in model units. Time: "
+      "median of "
+      "the runs. 3D views need WebGL; models up to {} each and {} a page are in it.</p>\n",
+      byte_size(kLargestPreviewModel), byte_size(kLargestPageModels));
   out.text(kFilters);
   out.text("<table class=\"files\">\n");
   write_heads(out);

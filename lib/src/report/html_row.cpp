@@ -36,11 +36,13 @@ void write_picture(const FileReport& report, const std::string& name, std::size_
   out.text("<td class=\"picture\">");
   if (!model.empty()) {
     out.print(
-        "<button type=\"button\" class=\"view\" data-model=\"model-{0}\" data-name=\"{1}\" aria-label=\"3D view of {1}\">",
+        "<button type=\"button\" class=\"view\" data-model=\"model-{0}\" data-name=\"{1}\" aria-label=\"3D "
+        "view of {1}\">",
         number, name);
   }
   if (!picture.empty()) {
-    out.print("<img alt=\"{}\" width=\"160\" height=\"120\" loading=\"lazy\" src=\"data:image/png;base64,", "Picture of " + name);
+    out.print("<img alt=\"{}\" width=\"160\" height=\"120\" loading=\"lazy\" src=\"data:image/png;base64,",
+              "Picture of " + name);
     out.text(picture);
     out.text("\">");
   }
@@ -75,14 +77,16 @@ void write_counts(const FileReport& report, TextWriter& out) {
   if (report.peak_memory > 0) out.print("<dt>Peak memory</dt><dd>{}</dd>", byte_size(report.peak_memory));
   const Preview& preview = report.preview;
   if (preview.model.empty() && preview.model_size > 0) {
-    out.print("<dt>3D view</dt><dd>left out: {}</dd>",
-              preview.model_size > kLargestPreviewModel ? "the model is too large" : "the page holds enough models");
+    out.print("<dt>3D view</dt><dd>left out: {}</dd>", preview.model_size > kLargestPreviewModel
+                                                           ? "the model is too large"
+                                                           : "the page holds enough models");
   }
   out.text("</dl>\n");
 }
 
 void write_bar(std::string_view stage, double share, TextWriter& out) {
-  out.print("<i class=\"{}\" style=\"width:{:.2f}%\"></i>", stage_class(stage), 100 * std::clamp(share, 0.0, 1.0));
+  out.print("<i class=\"{}\" style=\"width:{:.2f}%\"></i>", stage_class(stage),
+            100 * std::clamp(share, 0.0, 1.0));
 }
 
 void write_stages(const std::vector<StageSeries>& stages, TextWriter& out) {
@@ -91,15 +95,16 @@ void write_stages(const std::vector<StageSeries>& stages, TextWriter& out) {
   if (!(longest > 0)) return;
   out.text("<table class=\"stages\"><caption class=\"note\">Time of each stage</caption>");
   for (const StageSeries& stage : stages) {
-    out.print("<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td><div class=\"bars\">", html_text(stage.stage),
-              duration(stage.median_wall_ms()));
+    out.print("<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td><div class=\"bars\">",
+              html_text(stage.stage), duration(stage.median_wall_ms()));
     write_bar(stage.stage, stage.median_wall_ms() / longest, out);
     out.text("</div></td></tr>\n");
   }
   out.text("</table>\n");
 }
 
-void write_details(const FileReport& report, const std::vector<StageSeries>& stages, bool open, TextWriter& out) {
+void write_details(const FileReport& report, const std::vector<StageSeries>& stages, bool open,
+                   TextWriter& out) {
   if (report.runs.empty() && report.findings.empty()) return;
   out.print("<details{}><summary>Details</summary>\n", open ? " open" : "");
   if (report.outcome == FileReport::Outcome::Done) write_counts(report, out);
@@ -112,7 +117,8 @@ void write_details(const FileReport& report, const std::vector<StageSeries>& sta
   out.text("</details>");
 }
 
-void write_time(const FileReport& report, const std::vector<StageSeries>& stages, double slowest, TextWriter& out) {
+void write_time(const FileReport& report, const std::vector<StageSeries>& stages, double slowest,
+                TextWriter& out) {
   const double total = median_wall_ms(report);
   std::string label;
   for (const StageSeries& stage : stages) {
@@ -136,7 +142,8 @@ std::string html_text(std::string_view text) {
 
 std::string duration(double milliseconds) {
   if (milliseconds >= 10'000) return fmt::format("{:.1f} s", milliseconds / 1000);
-  return milliseconds >= 100 ? fmt::format("{:.0f} ms", milliseconds) : fmt::format("{:.2f} ms", milliseconds);
+  return milliseconds >= 100 ? fmt::format("{:.0f} ms", milliseconds)
+                             : fmt::format("{:.2f} ms", milliseconds);
 }
 
 std::string byte_size(std::uint64_t bytes) {
@@ -168,15 +175,20 @@ void write_row(const FileReport& report, std::size_t number, double slowest, boo
   out.print("<tr data-outcome=\"{}\" data-warnings=\"{}\">\n", outcome, report.warnings);
   write_picture(report, name, number, out);
   out.print("<th scope=\"row\" data-value=\"{0}\">{0}\n", name);
-  if (!report.message.empty()) out.print("<p class=\"message {}\">{}</p>\n", outcome, html_text(report.message));
+  if (!report.message.empty())
+    out.print("<p class=\"message {}\">{}</p>\n", outcome, html_text(report.message));
   write_details(report, stages, open, out);
   out.print("</th>\n<td data-label=\"Outcome\" data-value=\"{0}\" class=\"{0}\">{0}</td>\n", outcome);
   const bool done = report.outcome == FileReport::Outcome::Done;
   const Counts& c = report.counts;
-  for (const auto& [column, count] : {std::pair{"Triangles", c.triangles}, {"Patches", c.patches}, {"Loops", c.loops}, {"Segments", c.segments}}) {
+  for (const auto& [column, count] : {std::pair{"Triangles", c.triangles},
+                                      {"Patches", c.patches},
+                                      {"Loops", c.loops},
+                                      {"Segments", c.segments}}) {
     write_number(column, done ? static_cast<double>(count) : -1, done ? fmt::format("{}", count) : "", out);
   }
-  write_number("Deviation", done ? report.deviation : -1, done ? fmt::format("{:.3g}", report.deviation) : "", out);
+  write_number("Deviation", done ? report.deviation : -1, done ? fmt::format("{:.3g}", report.deviation) : "",
+               out);
   write_number("Warnings", static_cast<double>(report.warnings), fmt::format("{}", report.warnings), out);
   write_time(report, stages, slowest, out);
 }

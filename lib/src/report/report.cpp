@@ -10,7 +10,7 @@ using Writer = void (*)(std::span<const FileReport>, const Machine&, std::int64_
 
 // In the order of ReportFormat.
 constexpr std::array<std::string_view, 6> kNames = {"json", "gbench", "junit", "gha", "trace", "html"};
-constexpr std::array<Writer, 6> kWriters = {detail::write_json_report, detail::write_gbench_report,
+constexpr std::array<Writer, 6> kWriters = {detail::write_json_report,  detail::write_gbench_report,
                                             detail::write_junit_report, detail::write_gha_report,
                                             detail::write_trace_report, detail::write_html_report};
 

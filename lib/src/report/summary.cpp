@@ -113,7 +113,8 @@ std::string patch_table(const Model& model, std::span<const ShellBoundary> bound
       for (; contour != contours.end() && contour->shell == s && contour->patch == p; ++contour)
         count_kinds(*contour, kinds);
       table.add({printable(shell.id, 24), number(p + 1), number(shell.patches[p].triangle_count),
-                 number(patch.edges.size()), number(patch.loops.size()), loop_lengths(patch), kinds_text(kinds)});
+                 number(patch.edges.size()), number(patch.loops.size()), loop_lengths(patch),
+                 kinds_text(kinds)});
     }
   }
   return table.text();
@@ -175,8 +176,8 @@ std::string simplification_line(std::span<const Simplification> simplifications)
     after += s.triangles_after;
     error = std::max(error, s.error);
   }
-  return fmt::format("simplified from {} to {}, at most {:.4g} apart\n", plural(before, "triangle", "triangles"), after,
-                     error);
+  return fmt::format("simplified from {} to {}, at most {:.4g} apart\n",
+                     plural(before, "triangle", "triangles"), after, error);
 }
 
 }  // namespace
@@ -192,7 +193,8 @@ std::string summary(const Model& model, std::span<const ShellBoundary> boundarie
         fmt::format("\n{}", brief ? loop_distribution(boundaries) : patch_table(model, boundaries, contours));
     const std::string found = brief ? findings(model, boundaries) : std::string();
     if (!found.empty()) out += fmt::format("\n{}", found);
-    if (const std::string text = kinds_text(counts); !text.empty()) out += fmt::format("\ncurves: {}\n", text);
+    if (const std::string text = kinds_text(counts); !text.empty())
+      out += fmt::format("\ncurves: {}\n", text);
   }
   if (!simplifications.empty()) out += fmt::format("\n{}", simplification_line(simplifications));
   if (!timings.empty()) out += fmt::format("\n{}", stage_table(timings));

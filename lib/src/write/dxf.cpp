@@ -3,10 +3,10 @@
 #include <numbers>
 #include <unordered_set>
 
+#include "base/timestamp.hpp"
 #include "write/drawing.hpp"
 #include "write/dxf_file.hpp"
 #include "write/sampling.hpp"
-#include "base/timestamp.hpp"
 #include "write/units.hpp"
 #include "write/writers.hpp"
 

@@ -18,8 +18,9 @@ namespace {
 constexpr double kChordTolerance = 1e-4;  // of the curve's size, as for fits
 constexpr double kMostShear = 1e-6;       // cosine between the axes of a placement that a node can hold
 constexpr double kMillimetre = 1e-3;
-constexpr int kLines = 1;                 // the mode of a primitive
-constexpr Rgba kEdges{40, 40, 44, 255}, kCurves{214, 0, 110, 255}, kAnnotations{60, 60, 150, 255};  // as in pictures
+constexpr int kLines = 1;  // the mode of a primitive
+constexpr Rgba kEdges{40, 40, 44, 255}, kCurves{214, 0, 110, 255},
+    kAnnotations{60, 60, 150, 255};  // as in pictures
 
 using Vertex = Eigen::Vector3f;
 
@@ -83,7 +84,8 @@ class CornerNumbering {
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
-  static constexpr int kCompared = 8;  // normals of a point; with more of them some vertices are written twice
+  static constexpr int kCompared =
+      8;  // normals of a point; with more of them some vertices are written twice
 
   std::vector<std::uint32_t> newest_, older_;
   std::vector<Index> points_;
@@ -109,10 +111,12 @@ struct Lines {
 
 std::string patch_extras(const Shell& shell, std::size_t patch) {
   const std::string& name = shell.patches[patch].name;
-  return fmt::format(",\"extras\":{{\"patch\":{}{}}}", patch + 1, name.empty() ? "" : ",\"name\":" + json_quoted(name));
+  return fmt::format(",\"extras\":{{\"patch\":{}{}}}", patch + 1,
+                     name.empty() ? "" : ",\"name\":" + json_quoted(name));
 }
 
-// What nodes share: the meshes of a shell, in its own frame, or placed where a node cannot hold the placement.
+// What nodes share: the meshes of a shell, in its own frame, or placed where a node cannot hold the
+// placement.
 struct Part {
   Point centre = Point::Zero();      // the origin of its coordinates
   std::optional<std::size_t> faces;  // meshes, if it has any
@@ -162,7 +166,8 @@ void GlbWriter::choose_parts() {
 }
 
 std::size_t GlbWriter::add_mesh(const std::string& name, const JsonArray& primitives) {
-  return file_.add_mesh(fmt::format("{{\"name\":{},\"primitives\":{}}}", json_quoted(name), primitives.text()));
+  return file_.add_mesh(
+      fmt::format("{{\"name\":{},\"primitives\":{}}}", json_quoted(name), primitives.text()));
 }
 
 std::string GlbWriter::patch_primitive(const Shell& shell, std::size_t patch, const Part& part,
@@ -176,8 +181,8 @@ std::string GlbWriter::patch_primitive(const Shell& shell, std::size_t patch, co
   }
   const std::size_t at = file_.add_positions(corners.positions), normal = file_.add_normals(corners.normals),
                     index = file_.add_indices(indices), material = file_.surface(color);
-  return fmt::format("{{\"attributes\":{{\"POSITION\":{},\"NORMAL\":{}}},\"indices\":{},\"material\":{}{}}}", at,
-                     normal, index, material, patch_extras(shell, patch));
+  return fmt::format("{{\"attributes\":{{\"POSITION\":{},\"NORMAL\":{}}},\"indices\":{},\"material\":{}{}}}",
+                     at, normal, index, material, patch_extras(shell, patch));
 }
 
 void GlbWriter::add_faces(std::size_t number) {
@@ -192,15 +197,16 @@ void GlbWriter::add_faces(std::size_t number) {
   CornerNumbering corners(shell.points.size());
   JsonArray primitives;
   for (std::size_t p = 0; p < shell.patches.size(); ++p) {
-    if (shell.patches[p].triangle_count > 0) primitives.add(patch_primitive(shell, p, part, normals, corners));
+    if (shell.patches[p].triangle_count > 0)
+      primitives.add(patch_primitive(shell, p, part, normals, corners));
   }
   if (!primitives.empty()) part.faces = add_mesh("shell_" + shell.id, primitives);
 }
 
 std::string GlbWriter::line_primitive(const Lines& lines, std::size_t material, const std::string& extras) {
   const std::size_t at = file_.add_positions(lines.positions), index = file_.add_indices(lines.indices);
-  return fmt::format("{{\"attributes\":{{\"POSITION\":{}}},\"indices\":{},\"mode\":{},\"material\":{}{}}}", at, index,
-                     kLines, material, extras);
+  return fmt::format("{{\"attributes\":{{\"POSITION\":{}}},\"indices\":{},\"mode\":{},\"material\":{}{}}}",
+                     at, index, kLines, material, extras);
 }
 
 void GlbWriter::add_lines(EdgeUse edges, LoopShape shape, std::string_view name, const Rgba& color) {
@@ -228,7 +234,8 @@ void GlbWriter::add_nodes(const Instance& instance, std::size_t number) {
   }
   const bool placed_already = places_[number].placement.matrix() != Eigen::Matrix4d::Identity();
   const Eigen::Affine3d placement = placed_already ? Eigen::Affine3d::Identity() : instance.placement;
-  const std::string name = instance.path.empty() ? "shell_" + model_.shells[instance.shell].id : instance.path;
+  const std::string name =
+      instance.path.empty() ? "shell_" + model_.shells[instance.shell].id : instance.path;
   std::string node = fmt::format("{{\"name\":{}{}", json_quoted(name),
                                  matrix_text(placement * Eigen::Translation3d(part.centre)));
   if (part.faces) node += fmt::format(",\"mesh\":{}", *part.faces);
@@ -270,16 +277,18 @@ void GlbWriter::add_drawing(std::string_view name, const std::vector<Chain>& cha
 // glTF has metres and y up.
 void GlbWriter::write(Sink& sink) {
   const double scale = model_.metres_per_unit > 0 ? model_.metres_per_unit : kMillimetre;
-  const std::string children = children_.empty() ? "" : fmt::format(",\"children\":[{}]", fmt::join(children_, ","));
-  const std::size_t root = file_.add_node(fmt::format(
-      "{{\"name\":{},\"matrix\":[{},0,0,0,0,0,{},0,0,{},0,0,0,0,0,1]{}}}",
-      json_quoted(model_.name.empty() ? "model" : model_.name), scale, -scale, scale, children));
+  const std::string children =
+      children_.empty() ? "" : fmt::format(",\"children\":[{}]", fmt::join(children_, ","));
+  const std::size_t root = file_.add_node(
+      fmt::format("{{\"name\":{},\"matrix\":[{},0,0,0,0,0,{},0,0,{},0,0,0,0,0,1]{}}}",
+                  json_quoted(model_.name.empty() ? "model" : model_.name), scale, -scale, scale, children));
   file_.write(root, sink);
 }
 
 }  // namespace
 
-void write_glb(const Result& result, const WriteOptions& options, Sink& sink, std::vector<Diagnostic>& notes) {
+void write_glb(const Result& result, const WriteOptions& options, Sink& sink,
+               std::vector<Diagnostic>& notes) {
   GlbWriter writer(result);
   writer.add_instances(options.edges);
   std::vector<Chain> annotations, curves;

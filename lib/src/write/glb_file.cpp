@@ -67,9 +67,9 @@ std::size_t GlbFile::add_vertices(Vertices vertices, const std::string& bounds) 
   const std::size_t offset = bytes_of(vertices_).size();
   vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
   check_size();
-  return accessors_.add(
-      fmt::format("{{\"bufferView\":0,\"byteOffset\":{},\"componentType\":{},\"count\":{},\"type\":\"VEC3\"{}}}",
-                  offset, kFloat, vertices.size(), bounds));
+  return accessors_.add(fmt::format(
+      "{{\"bufferView\":0,\"byteOffset\":{},\"componentType\":{},\"count\":{},\"type\":\"VEC3\"{}}}", offset,
+      kFloat, vertices.size(), bounds));
 }
 
 std::size_t GlbFile::add_positions(Vertices positions) {
@@ -89,18 +89,18 @@ std::size_t GlbFile::add_indices(std::span<const std::uint32_t> indices) {
   const std::size_t offset = bytes_of(indices_).size();
   indices_.insert(indices_.end(), indices.begin(), indices.end());
   check_size();
-  return accessors_.add(
-      fmt::format("{{\"bufferView\":1,\"byteOffset\":{},\"componentType\":{},\"count\":{},\"type\":\"SCALAR\"}}",
-                  offset, kUnsignedInt, indices.size()));
+  return accessors_.add(fmt::format(
+      "{{\"bufferView\":1,\"byteOffset\":{},\"componentType\":{},\"count\":{},\"type\":\"SCALAR\"}}", offset,
+      kUnsignedInt, indices.size()));
 }
 
 std::size_t GlbFile::surface(const Rgba& color) {
   const std::string name = fmt::format("#{:02x}{:02x}{:02x}", color.red, color.green, color.blue);
   const auto [known, is_new] = known_materials_.try_emplace(name, 0);
   if (is_new) {
-    known->second = materials_.add(
-        fmt::format("{{\"name\":\"{}\",\"pbrMetallicRoughness\":{{{},\"roughnessFactor\":0.6}},\"doubleSided\":true}}",
-                    name, base_color(color)));
+    known->second = materials_.add(fmt::format(
+        "{{\"name\":\"{}\",\"pbrMetallicRoughness\":{{{},\"roughnessFactor\":0.6}},\"doubleSided\":true}}",
+        name, base_color(color)));
   }
   return known->second;
 }
@@ -125,9 +125,10 @@ std::string GlbFile::json(std::size_t root) const {
     out += fmt::format(
         ",\n\"meshes\":{},\n\"materials\":{},\n\"accessors\":{},\n\"bufferViews\":["
         "{{\"buffer\":0,\"byteLength\":{},\"byteStride\":12,\"target\":{}}},"
-        "{{\"buffer\":0,\"byteOffset\":{},\"byteLength\":{},\"target\":{}}}],\n\"buffers\":[{{\"byteLength\":{}}}]",
-        meshes_.text(), materials_.text(), accessors_.text(), vertex_bytes, kArrayBuffer, vertex_bytes, index_bytes,
-        kElementArrayBuffer, vertex_bytes + index_bytes);
+        "{{\"buffer\":0,\"byteOffset\":{},\"byteLength\":{},\"target\":{}}}],\n\"buffers\":[{{\"byteLength\":"
+        "{}}}]",
+        meshes_.text(), materials_.text(), accessors_.text(), vertex_bytes, kArrayBuffer, vertex_bytes,
+        index_bytes, kElementArrayBuffer, vertex_bytes + index_bytes);
     if (out.find("KHR_materials_unlit") != out.npos) out += ",\n\"extensionsUsed\":[\"KHR_materials_unlit\"]";
   }
   out += '}';
@@ -141,7 +142,8 @@ void GlbFile::write(std::size_t root, Sink& sink) const {
   const std::uint64_t size =
       kHeaderBytes + kChunkHeaderBytes + text.size() + (binary > 0 ? kChunkHeaderBytes + binary : 0);
   check_glb_size(size);
-  write_words(sink, {kMagic, 2, static_cast<std::uint32_t>(size), static_cast<std::uint32_t>(text.size()), kJsonChunk});
+  write_words(sink, {kMagic, 2, static_cast<std::uint32_t>(size), static_cast<std::uint32_t>(text.size()),
+                     kJsonChunk});
   sink.write(text);
   if (binary == 0) return;
   write_words(sink, {static_cast<std::uint32_t>(binary), kBinaryChunk});

@@ -52,7 +52,8 @@ void write_lines(LineFormat format, std::span<const Polyline> lines, Sink& sink)
   out.flush();
 }
 
-void detail::write_wrl(const Result& result, const WriteOptions& options, Sink& sink, std::vector<Diagnostic>&) {
+void detail::write_wrl(const Result& result, const WriteOptions& options, Sink& sink,
+                       std::vector<Diagnostic>&) {
   const bool path = options.wrl == WrlContent::Path;
   write_lines(LineFormat::Wrl, path ? result.model.path : result.model.tree, sink);
 }

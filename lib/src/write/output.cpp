@@ -19,15 +19,15 @@ struct Row {
 };
 
 constexpr std::array<Row, 10> kFormats = {{{"png", OutputFormat::Png, nullptr},
-                                          {"csv", OutputFormat::Csv, detail::write_csv},
-                                          {"obj", OutputFormat::Obj, detail::write_obj},
-                                          {"step", OutputFormat::Step, detail::write_step},
-                                          {"dxf", OutputFormat::Dxf, detail::write_dxf},
-                                          {"svg", OutputFormat::Svg, detail::write_svg},
-                                          {"json", OutputFormat::Json, detail::write_json},
-                                          {"glb", OutputFormat::Glb, detail::write_glb},
-                                          {"wrl", OutputFormat::Wrl, detail::write_wrl},
-                                          {"stp", OutputFormat::Step, detail::write_step}}};
+                                           {"csv", OutputFormat::Csv, detail::write_csv},
+                                           {"obj", OutputFormat::Obj, detail::write_obj},
+                                           {"step", OutputFormat::Step, detail::write_step},
+                                           {"dxf", OutputFormat::Dxf, detail::write_dxf},
+                                           {"svg", OutputFormat::Svg, detail::write_svg},
+                                           {"json", OutputFormat::Json, detail::write_json},
+                                           {"glb", OutputFormat::Glb, detail::write_glb},
+                                           {"wrl", OutputFormat::Wrl, detail::write_wrl},
+                                           {"stp", OutputFormat::Step, detail::write_step}}};
 
 constexpr auto kNames = [] {
   std::array<std::string_view, 9> names;

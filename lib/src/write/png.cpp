@@ -54,7 +54,9 @@ namespace {
 constexpr int kLevel = 4;   // of libdeflate
 constexpr int kFilter = 0;  // of PNG: none
 
-Error out_of_memory() { return {ErrorCode::OutOfMemory, "not enough memory to encode the picture"}; }
+Error out_of_memory() {
+  return {ErrorCode::OutOfMemory, "not enough memory to encode the picture"};
+}
 
 bool opaque(const Image& image) {
   std::uint8_t all = 255;

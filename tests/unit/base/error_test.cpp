@@ -9,7 +9,7 @@ TEST_CASE("printable: control bytes and broken UTF-8 become visible", "[base]") 
   CHECK(printable("caf\xc3\xa9") == "caf\xc3\xa9");
   CHECK(printable("caf\xe9!") == "caf\xef\xbf\xbd!");
   CHECK(printable("\xc0\xaf") == "\xef\xbf\xbd\xef\xbf\xbd");  // overlong '/'
-  CHECK(printable("\xc2\x9b") == "\xef\xbf\xbd");  // C1 control, an escape to some terminals
+  CHECK(printable("\xc2\x9b") == "\xef\xbf\xbd");              // C1 control, an escape to some terminals
 }
 
 TEST_CASE("printable: a long text is cut", "[base]") {

@@ -1,7 +1,7 @@
 #include "model/normals.hpp"
 
-#include "unit/render/solids.hpp"
 #include "support/catch.hpp"
+#include "unit/render/solids.hpp"
 
 using namespace meshcontour;
 using namespace solids;

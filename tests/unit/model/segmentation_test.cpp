@@ -21,7 +21,8 @@ double dihedral(const Shell& shell, std::size_t s, std::size_t t, std::pair<Inde
   return std::acos(std::clamp((same_way ? -1 : 1) * normal(s).dot(normal(t)), -1.0, 1.0));
 }
 
-// The patch of every triangle by the definition: joined over edges of two triangles that meet at less than the angle.
+// The patch of every triangle by the definition: joined over edges of two triangles that meet at less than
+// the angle.
 std::vector<std::size_t> brute_patches(const Shell& shell, double radians) {
   std::vector<std::pair<std::size_t, std::size_t>> links;
   for (const auto& [edge, triangles] : dirty::triangles_by_edge(shell)) {

@@ -1,5 +1,5 @@
-// Reference vectors made by an independent implementation: data/NAME_control.off is subdivided to NAME_subdivN.off;
-// NAME_fine.off is analysed into NAME_coarse.off, NAME_details.txt and NAME_integrals.txt.
+// Reference vectors made by an independent implementation: data/NAME_control.off is subdivided to
+// NAME_subdivN.off; NAME_fine.off is analysed into NAME_coarse.off, NAME_details.txt and NAME_integrals.txt.
 
 #include <fstream>
 #include <sstream>
@@ -90,7 +90,8 @@ TEST_CASE("WaveletTransform: coarse mesh, details and integrals equal the refere
   std::vector<Point> points = fine.points;
   transform.analyse(points);
   double worst = 0;
-  for (std::size_t i = 0; i < coarse.points.size(); ++i) worst = std::max(worst, (points[i] - coarse.points[i]).norm());
+  for (std::size_t i = 0; i < coarse.points.size(); ++i)
+    worst = std::max(worst, (points[i] - coarse.points[i]).norm());
   CHECK(worst <= 1e-13 * size);
 
   std::ifstream details(data_file(name + "_details.txt"));
@@ -110,6 +111,7 @@ TEST_CASE("WaveletTransform: coarse mesh, details and integrals equal the refere
 
   transform.synthesise(points);
   worst = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) worst = std::max(worst, (points[i] - fine.points[i]).norm());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    worst = std::max(worst, (points[i] - fine.points[i]).norm());
   CHECK(worst <= 1e-14 * size);
 }

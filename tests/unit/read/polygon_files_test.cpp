@@ -269,11 +269,13 @@ TEST_CASE("polygon files: strict refuses what would be mended", "[read][polygon]
                     "a.off: point that no triangle uses, left out");
 }
 
-TEST_CASE("polygon files: coordinates whose squares would not be finite are refused", "[read][polygon][error]") {
+TEST_CASE("polygon files: coordinates whose squares would not be finite are refused",
+          "[read][polygon][error]") {
   const auto triangle = [](const std::string& x) { return "v 0 0 0\nv " + x + " 0 0\nv 0 1 0\nf 1 2 3\n"; };
   CHECK_NOTHROW(read_model(triangle("9e100"), "m.obj"));
   for (const std::string x : {"2e101", "-1e300"}) {
-    CHECK_THROWS_WITH(read_model(triangle(x), "m.obj"), Catch::Contains("vertex 1") && Catch::Contains("1e+101"));
+    CHECK_THROWS_WITH(read_model(triangle(x), "m.obj"),
+                      Catch::Contains("vertex 1") && Catch::Contains("1e+101"));
   }
 }
 

@@ -35,10 +35,18 @@ int widest_row(const Image& image, Test test) {
   return widest;
 }
 
-bool is_blue(const Rgba& c) { return c.blue > 2 * c.red && c.blue > 2 * c.green; }
-bool is_red(const Rgba& c) { return c.red > 2 * c.blue && c.red > 2 * c.green; }
-bool is_green(const Rgba& c) { return c.green > 2 * c.red && c.green > 1.5 * c.blue; }
-bool is_grey(const Rgba& c) { return c.red == c.green && c.green == c.blue && c.red < 250; }
+bool is_blue(const Rgba& c) {
+  return c.blue > 2 * c.red && c.blue > 2 * c.green;
+}
+bool is_red(const Rgba& c) {
+  return c.red > 2 * c.blue && c.red > 2 * c.green;
+}
+bool is_green(const Rgba& c) {
+  return c.green > 2 * c.red && c.green > 1.5 * c.blue;
+}
+bool is_grey(const Rgba& c) {
+  return c.red == c.green && c.green == c.blue && c.red < 250;
+}
 
 }  // namespace
 
@@ -80,8 +88,9 @@ TEST_CASE("legend: it does not make a picture out of nothing", "[render][legend]
   CHECK_THROWS_WITH(picture(model, front({Layer::Axes, Layer::Scale})), Catch::Contains("blank"));
   RenderOptions far = front({Layer::Mesh, Layer::Axes});
   far.view = View::Report;
-  CHECK_THROWS_WITH(picture(placed({box(Point(1e6, 1e6, 1e6), Point(1e6 + 1, 1e6 + 1, 1e6 + 1), kGrey)}), far),
-                    Catch::Contains("blank"));
+  CHECK_THROWS_WITH(
+      picture(placed({box(Point(1e6, 1e6, 1e6), Point(1e6 + 1, 1e6 + 1, 1e6 + 1), kGrey)}), far),
+      Catch::Contains("blank"));
   far.layers = {Layer::Mesh, Layer::Scale};
   CHECK_THROWS_WITH(picture(model, far), Catch::Contains("perspective"));
 }

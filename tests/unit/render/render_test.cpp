@@ -332,8 +332,7 @@ TEST_CASE("render: a face towards the viewer is lit by the light's cosine, on ei
   RenderOptions options = small({Layer::Mesh}, view);
   options.color_by = ColorBy::File;
   if (view == View::Report) model.instances[0].placement = view_axes(view).transpose();
-  SECTION("as it is") {
-  }
+  SECTION("as it is") {}
   SECTION("stretched and mirrored") {
     model.instances[0].placement.linear() *= Vector(-3, 2, 0.01).asDiagonal();
   }
@@ -344,7 +343,8 @@ TEST_CASE("render: a face towards the viewer is lit by the light's cosine, on ei
     model.instances[0].placement.linear() *= Vector(1, -1, -1).asDiagonal();
   }
   const Rgba color = pixel(picture(model, options), 80, 60);
-  const int red = view == View::Report ? static_cast<int>(std::lround(230 / 255.0 * expected)) : expected;  // its own
+  const int red =
+      view == View::Report ? static_cast<int>(std::lround(230 / 255.0 * expected)) : expected;  // its own
   CHECK(std::abs(color.red - red) <= 1);
 }
 

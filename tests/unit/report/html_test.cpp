@@ -7,7 +7,8 @@ using Catch::Contains;
 
 namespace {
 
-const std::string kHostile = "\"'><script>alert(1)</script><!--\xe2\x80\xa8<img src=x onerror=alert(2)>&lt;\x07\xff</table>";
+const std::string kHostile =
+    "\"'><script>alert(1)</script><!--\xe2\x80\xa8<img src=x onerror=alert(2)>&lt;\x07\xff</table>";
 
 std::vector<FileReport> pages_of(const std::string& text) {
   std::vector<FileReport> files = sample_reports();
@@ -54,12 +55,12 @@ std::size_t occurrences(const std::string& text, const std::string& word) {
 
 TEST_CASE("base64: the vectors of RFC 4648", "[base]") {
   const std::array<std::pair<std::string, std::string>, 7> vectors = {{{"", ""},
-                                                                      {"f", "Zg=="},
-                                                                      {"fo", "Zm8="},
-                                                                      {"foo", "Zm9v"},
-                                                                      {"foob", "Zm9vYg=="},
-                                                                      {"fooba", "Zm9vYmE="},
-                                                                      {"\xff\xfe\xfd", "//79"}}};
+                                                                       {"f", "Zg=="},
+                                                                       {"fo", "Zm8="},
+                                                                       {"foo", "Zm9v"},
+                                                                       {"foob", "Zm9vYg=="},
+                                                                       {"fooba", "Zm9vYmE="},
+                                                                       {"\xff\xfe\xfd", "//79"}}};
   for (const auto& [bytes, text] : vectors) CHECK(detail::base64(bytes) == text);
 }
 
@@ -68,7 +69,8 @@ TEST_CASE("report html: no text of a file or machine becomes markup", "[report][
   hostile.host = hostile.cpu = hostile.system = kHostile;
   const std::string html = page(pages_of(kHostile), hostile);
   CHECK(tags_of(html) == tags_of(page(pages_of("harmless"))));
-  CHECK_THAT(html, !Contains("alert(1)<") && !Contains("<img src=x") && !Contains("\x07") && !Contains("\xff"));
+  CHECK_THAT(html,
+             !Contains("alert(1)<") && !Contains("<img src=x") && !Contains("\x07") && !Contains("\xff"));
   CHECK_THAT(html, Contains("&quot;&apos;&gt;&lt;script&gt;alert(1)&lt;/script&gt;"));
 }
 
@@ -81,7 +83,8 @@ TEST_CASE("report html: a row a file, with its outcome, numbers, findings and ti
   const std::string html = page(files);
   CHECK_THAT(html, Contains("<h1>3 files</h1>") && Contains("1 done, 1 failed, 1 skipped"));
   CHECK(occurrences(html, "<tr data-outcome=") == 3);
-  CHECK_THAT(html, Contains("data-outcome=\"done\" data-warnings=\"1\"") && Contains("<dt>Arcs</dt><dd>77</dd>"));
+  CHECK_THAT(html,
+             Contains("data-outcome=\"done\" data-warnings=\"1\"") && Contains("<dt>Arcs</dt><dd>77</dd>"));
   CHECK_THAT(html, Contains("data-label=\"Deviation\" data-value=\"0.00125\">0.00125<"));
   CHECK_THAT(html, Contains("<li>part.xml:3: warning: mended</li>"));
   CHECK_THAT(html, Contains("data-value=\"14.7\">14.70 ms"));  // the median of 13.5 and 15.9
@@ -92,7 +95,8 @@ TEST_CASE("report html: a row a file, with its outcome, numbers, findings and ti
 
 TEST_CASE("report html: nothing is asked for from elsewhere", "[report][html]") {
   const std::string html = page(pages_of("a.xml"));
-  CHECK_THAT(html, Contains("default-src 'none'") && !Contains("http:") && !Contains("https:") && !Contains("@import"));
+  CHECK_THAT(html, Contains("default-src 'none'") && !Contains("http:") && !Contains("https:") &&
+                       !Contains("@import"));
   CHECK(occurrences(html, " src=\"") == occurrences(html, " src=\"data:image/png;base64,"));
   CHECK(occurrences(html, " href=\"") == 1);
 }

@@ -122,13 +122,16 @@ struct Scene {
     const auto at = [&](std::size_t i) -> Point { return place * positions[indices[i]].cast<double>(); };
     if (primitive.value("mode", 4) == 1) {
       const Json& material = glb.json["materials"].at(primitive["material"].get<std::size_t>());
-      for (std::size_t i = 0; i + 1 < indices.size(); i += 2) lines.push_back({material["name"], {at(i), at(i + 1)}});
+      for (std::size_t i = 0; i + 1 < indices.size(); i += 2)
+        lines.push_back({material["name"], {at(i), at(i + 1)}});
       return;
     }
     const auto normals = glb.vectors(primitive["attributes"]["NORMAL"]);
     REQUIRE(normals.size() == positions.size());
     const Eigen::Matrix3d turned = place.linear().inverse().transpose();
-    const auto normal = [&](std::size_t i) -> Vector { return (turned * normals[indices[i]].cast<double>()).normalized(); };
+    const auto normal = [&](std::size_t i) -> Vector {
+      return (turned * normals[indices[i]].cast<double>()).normalized();
+    };
     // A mirrored node turns the winding, says the specification.
     const std::size_t second = place.linear().determinant() < 0 ? 2 : 1, third = 3 - second;
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
@@ -172,7 +175,8 @@ Sample cubes() {
 
 }  // namespace
 
-TEST_CASE("glb: every instance's triangles stand where the model has them, wound and lit outwards", "[write][glb]") {
+TEST_CASE("glb: every instance's triangles stand where the model has them, wound and lit outwards",
+          "[write][glb]") {
   const Sample s = cubes();
   const Scene scene{Glb(written(OutputFormat::Glb, s))};
   const Shell& cube = s.model.shells[0];
@@ -201,7 +205,8 @@ TEST_CASE("glb: edges and curves are lines through the loops' vertices", "[write
   std::map<std::string, std::size_t> counts;
   for (const auto& [name, ends] : scene.lines) {
     ++counts[name];
-    CHECK((ends[1] - ends[0]).norm() > 0.9 * kMetres);  // whole sides, as the mirrored instance is twice as large
+    CHECK((ends[1] - ends[0]).norm() >
+          0.9 * kMetres);  // whole sides, as the mirrored instance is twice as large
     for (const Point& end : ends) {
       double nearest = 1;
       for (const Instance& instance : s.model.instances) {
@@ -225,7 +230,8 @@ TEST_CASE("glb: instances share the meshes of their shell, unless a placement sh
   const Glb glb(written(OutputFormat::Glb, cubes()));
   std::map<std::string, std::size_t> mesh;
   for (const Json& node : glb.json["nodes"]) {
-    if (node.contains("mesh") && node["name"] != "edges" && node["name"] != "curves") mesh[node["name"]] = node["mesh"];
+    if (node.contains("mesh") && node["name"] != "edges" && node["name"] != "curves")
+      mesh[node["name"]] = node["mesh"];
   }
   REQUIRE(mesh.size() == 4);
   CHECK(mesh["first"] == mesh["turned"]);
@@ -243,7 +249,8 @@ TEST_CASE("glb: a patch has its name and its colour in linear light", "[write][g
     CHECK(primitives[p]["extras"] == Json{{"patch", p + 1}, {"name", "side " + std::to_string(p)}});
     const Json& material = glb.json["materials"][primitives[p]["material"].get<std::size_t>()];
     const Json& color = material["pbrMetallicRoughness"]["baseColorFactor"];
-    const double red = color[0], srgb = red <= 0.0031308 ? 12.92 * red : 1.055 * std::pow(red, 1 / 2.4) - 0.055;
+    const double red = color[0],
+                 srgb = red <= 0.0031308 ? 12.92 * red : 1.055 * std::pow(red, 1 / 2.4) - 0.055;
     CHECK(srgb * 255 == Approx(40.0 * static_cast<double>(p)).margin(0.05));
     CHECK(color[2] == 1);
   }
