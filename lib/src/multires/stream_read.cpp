@@ -129,6 +129,7 @@ class StreamReader {
         place += in.integer();
         if (place > kLargestPlace || place < 0) in.fail("a point is out of range");
         p[k] += step * static_cast<double>(place);
+        if (!std::isfinite(p[k])) in.fail("a point is out of range");
       }
     }
   }

@@ -238,7 +238,8 @@ TriangleTree::Hit TriangleTree::nearest(const Point& p, Index hint) const {
   Hit best;
   if (nodes_.empty()) return best;
   // The hint is found again where it is what the search would meet.
-  best.squared = std::nextafter((nearest_point(corners(hint), p) - p).squaredNorm(), best.squared);
+  const double at_hint = (nearest_point(corners(hint), p) - p).squaredNorm();
+  if (at_hint < best.squared) best.squared = std::nextafter(at_hint, best.squared);
   std::array<std::pair<Index, double>, kStackSize> stack;
   std::size_t size = 0;
   stack[size++] = {0, 0};

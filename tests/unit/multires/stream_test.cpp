@@ -150,13 +150,15 @@ TEST_CASE("wavelet stream: contents that contradict themselves are refused", "[m
   struct Case {
     std::uint64_t levels, triangles, corner;
     std::string message;
+    double step = 1;
   };
-  const auto [levels, triangles, corner, message] = GENERATE(values<Case>({
+  const auto [levels, triangles, corner, message, step] = GENERATE(values<Case>({
       {17, 1, 2, "out of range"},
       {1, 2, 2, "patches do not make up"},
       {1, 1, 9, "names a point"},
       {16, 1, 2, "triangles"},
       {1, 1, 0, "not an orientable manifold"},
+      {1, 1, 2, "a point is out of range", 1e308},
   }));
   CAPTURE(message);
   detail::ByteWriter out;
@@ -167,10 +169,10 @@ TEST_CASE("wavelet stream: contents that contradict themselves are refused", "[m
   out.text("shell");
   for (int i = 0; i < 4; ++i) out.byte(255);
   out.count(levels);
-  out.number(1);
+  out.number(step);
   out.count(3);
   for (int i = 0; i < 3; ++i) out.number(i);
-  for (const int step : {0, 1, 0, 0, 0, 1, 0, 2, 3}) out.integer(step);
+  for (const int difference : {0, 1, 0, 0, 0, 1, 0, 2, 3}) out.integer(difference);
   out.count(1);
   out.text("patch");
   for (int i = 0; i < 4; ++i) out.byte(255);
