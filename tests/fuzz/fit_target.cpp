@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "fit/arc_fit.hpp"
+#include "fit/cleaning.hpp"
 #include "fit/ellipse_fit.hpp"
 #include "fuzz/fit_models.hpp"
 #include "meshcontour/fit.hpp"
@@ -30,6 +31,7 @@ class ContourCheck {
     for (const Index v : loop.vertices) box.extend(shell.points[v]);
     const double diagonal = box.diagonal().stableNorm();
     tolerance_ = tolerance > 0 ? tolerance : 1e-4 * diagonal;
+    repeated_ = detail::kRepeatedPoint * diagonal;
     for (const Index v : loop.vertices) slack_ = std::max(slack_, shell.points[v].cwiseAbs().maxCoeff());
     slack_ *= kRounding;
   }
@@ -88,7 +90,7 @@ class ContourCheck {
     }
     if (contour_.fallback) return;
     for (std::size_t i = from; i <= to; ++i) {
-      require(distance_to_curve(segment.curve, point(i)) <= tolerance_ * (1 + 1e-6) + slack_,
+      require(distance_to_curve(segment.curve, point(i)) <= (tolerance_ + repeated_) * (1 + 1e-6) + slack_,
               "a vertex farther from its curve than allowed");
     }
   }
@@ -115,6 +117,7 @@ class ContourCheck {
   const Shell& shell_;
   const BoundaryLoop& loop_;
   double tolerance_ = 0, slack_ = 0;
+  double repeated_ = 0;  // points that near count as one
 };
 
 // Curves along the same edge are the same, but for rounding where they run the other way.
