@@ -4,6 +4,7 @@ reader who goes away, and with its inputs in another order, and checks that each
 
 Usage: run_conditions.py PROGRAM MODEL"""
 
+import contextlib
 import itertools
 import os
 import pathlib
@@ -32,6 +33,26 @@ def expect(program, *arguments):
     with tempfile.TemporaryDirectory() as folder:
         run(program, folder, *arguments, check=True)
         return contents(folder)
+
+
+@contextlib.contextmanager
+def meanwhile(change):
+    """Calls a function with 0, 1, 2, ... in a thread as long as the block runs."""
+    stop = threading.Event()
+
+    def repeat():
+        for number in itertools.count():
+            if stop.is_set():
+                return
+            change(number)
+
+    changing = threading.Thread(target=repeat)
+    changing.start()
+    try:
+        yield
+    finally:
+        stop.set()
+        changing.join()
 
 
 def short_memory(program, model):
@@ -63,56 +84,42 @@ def replaced_input(program, model):
     grid = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n"
     files = [grid, grid.replace("1 1 0", "2 2 0")]
     with tempfile.TemporaryDirectory() as work:
-        source, stop = pathlib.Path(work, "in.off"), threading.Event()
+        source = pathlib.Path(work, "in.off")
         expected = []
         for text in files:
             source.write_text(text)
             expected.append(expect(program, source, *TABLES))
 
-        def replace():
-            for number in itertools.count():
-                if stop.is_set():
-                    return
-                fresh = pathlib.Path(work, "fresh.off")
-                fresh.write_text(files[number % 2])
-                fresh.rename(source)
+        def replace(number):
+            fresh = pathlib.Path(work, "fresh.off")
+            fresh.write_text(files[number % 2])
+            fresh.rename(source)
 
-        replacing = threading.Thread(target=replace)
-        replacing.start()
-        try:
+        with meanwhile(replace):
             for _ in range(40):
                 with tempfile.TemporaryDirectory() as folder:
                     done = run(program, folder, source, *TABLES)
                     if done.returncode != 0 or contents(folder) not in expected:
                         yield f"exit code {done.returncode}: {done.stderr[:300]}"
-        finally:
-            stop.set()
-            replacing.join()
 
 
 def shrinking_input(program, model):
     """An input that is cut while it is read gives a result or a refusal, never a signal."""
     content = pathlib.Path(model).read_bytes()
     with tempfile.TemporaryDirectory() as work:
-        source, stop = pathlib.Path(work, "in" + pathlib.Path(model).suffix), threading.Event()
+        source = pathlib.Path(work, "in" + pathlib.Path(model).suffix)
         source.write_bytes(content)
 
-        def cut():
-            while not stop.is_set():
-                os.truncate(source, len(content) // 3)
-                source.write_bytes(content)
+        def cut(_):
+            os.truncate(source, len(content) // 3)
+            source.write_bytes(content)
 
-        cutting = threading.Thread(target=cut)
-        cutting.start()
-        try:
+        with meanwhile(cut):
             for _ in range(40):
                 with tempfile.TemporaryDirectory() as folder:
                     done = run(program, folder, source, *TABLES)
                     if done.returncode not in (0, 65, 66) or (done.returncode != 0 and contents(folder)):
                         yield f"exit code {done.returncode}: {done.stderr[:300]}"
-        finally:
-            stop.set()
-            cutting.join()
 
 
 def closed_pipe(program, model):
