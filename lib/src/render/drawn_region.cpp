@@ -46,7 +46,7 @@ class Cover {
   explicit Cover(const Scene& scene)
       : projection_(scene.projection),
         size_(scene.samples_across * Eigen::Vector2d(scene.width, scene.height)),
-        affine_(scene.projection.row(3) == Eigen::RowVector4d(0, 0, 0, 1)) {}
+        perspective_(scene.perspective()) {}
 
   void add(const Content& content, const Placement& placement) {
     Eigen::AlignedBox2d part;
@@ -54,10 +54,10 @@ class Cover {
       Eigen::Matrix4d to_eye = placement.to_eye.cast<double>();
       to_eye(2, 3) = placement.depth + bias;
       const Eigen::Matrix<double, 4, 4> to_clip = projection_ * to_eye;
-      if (affine_) {
-        add_affine(to_clip, content.box, part);
-      } else {
+      if (perspective_) {
         add_corners(to_clip, content.box, part);
+      } else {
+        add_affine(to_clip, content.box, part);
       }
     }
     const Eigen::Vector2d reach = Eigen::Vector2d::Constant(content.half_width + kRounding);
@@ -105,7 +105,7 @@ class Cover {
 
   Eigen::Matrix4d projection_;
   Eigen::Vector2d size_;
-  bool affine_, unbounded_ = false;
+  bool perspective_, unbounded_ = false;
   Eigen::AlignedBox2d box_;
 };
 

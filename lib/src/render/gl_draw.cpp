@@ -14,7 +14,7 @@ namespace {
 
 // Of llvmpipe: larger viewports and wider lines are cut without an error.
 constexpr int kLargestFramebuffer = 16384;
-constexpr float kWidestLine = 255;
+constexpr float kWidestDrawn = 255;  // samples
 
 // A part of the picture, in samples: what is kept of it, and the margin around it into which wide lines
 // reach.
@@ -101,7 +101,6 @@ void set_state(const Part& part, bool with_depth) {
 // Faces, lines and points go through the same shaders.
 void draw_range(const Scene& scene, const Batch& batch, const VertexRange& range, GLenum mode, Part& part) {
   const bool lit = scene.lit && mode == GL_TRIANGLES;
-  const bool perspective = scene.projection.row(3) != Eigen::RowVector4d(0, 0, 0, 1);
   const std::span<const Vertex> vertices = std::span(scene.vertices).subspan(range.first, range.count);
   const bool once = !lit && vertices.size() <= part.size();
   if (once) keep_colors(vertices, part);
@@ -110,7 +109,7 @@ void draw_range(const Scene& scene, const Batch& batch, const VertexRange& range
     Eigen::Matrix4f to_eye = placement.to_eye;
     to_eye(2, 3) = static_cast<float>(placement.depth + batch.bias);
     glLoadMatrixf(to_eye.data());
-    const FaceLight light(placement, perspective);
+    const FaceLight light(placement, scene.perspective());
     for (std::size_t done = 0; done < vertices.size(); done += part.size()) {
       const auto some = vertices.subspan(done, std::min(part.size(), vertices.size() - done));
       if (lit) {
@@ -124,7 +123,7 @@ void draw_range(const Scene& scene, const Batch& batch, const VertexRange& range
 }
 
 void draw_batch(const Scene& scene, const Batch& batch, Part& part) {
-  const auto size = std::min(static_cast<float>(scene.samples_across) * batch.size, kWidestLine);
+  const auto size = std::min(static_cast<float>(scene.samples_across) * batch.size, kWidestDrawn);
   switch (batch.kind) {
     case Batch::Kind::Triangles:
       draw_range(scene, batch, batch.range, GL_TRIANGLES, part);

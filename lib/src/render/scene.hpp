@@ -83,6 +83,8 @@ struct Scene {
   std::vector<Batch> batches;    ///< in drawing order
   std::size_t model_batches =
       0;  ///< the first of these show the model, the rest only how to read the picture
+
+  bool perspective() const { return projection.row(3) != Eigen::RowVector4d(0, 0, 0, 1); }
 };
 
 }  // namespace meshcontour::detail

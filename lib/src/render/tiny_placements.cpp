@@ -31,8 +31,6 @@ class Footprints {
       : projection_(scene.projection),
         size_(scene.samples_across / 2.0 * Eigen::Vector2d(scene.width, scene.height)) {}
 
-  bool possible() const { return projection_.row(3) == Eigen::RowVector4d(0, 0, 0, 1); }
-
   Footprint of(const Placement& placement, const Eigen::Vector3d& extent) const {
     const Eigen::Matrix4d to_clip = projection_ * placement.to_eye.cast<double>();
     const Eigen::Vector2d middle = (to_clip.topRightCorner<2, 1>().array() + 1).matrix().cwiseProduct(size_);
@@ -126,8 +124,8 @@ void split(Scene& scene, std::size_t frame, Parts&& parts) {
 }  // namespace
 
 void leave_out_tiny(Scene& scene, const std::vector<Eigen::Vector3d>& extents) {
+  if (scene.perspective()) return;
   const Footprints footprints(scene);
-  if (!footprints.possible()) return;
   for (std::size_t frame = 0; frame < extents.size(); ++frame) {
     if (scene.frames[frame].size() < kMany || extents[frame].isZero()) continue;
     split(scene, frame, parts_of(scene.frames[frame], footprints, extents[frame]));

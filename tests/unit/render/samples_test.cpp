@@ -160,11 +160,16 @@ TEST_CASE("labels: one sample without shading has the palette's colours and no o
   }
 }
 
-TEST_CASE("labels: every layer keeps its colours with one sample", "[render][samples]") {
-  const Model model = placed({cylinder(34, 10, 15)});
+// A model with its loops and curves.
+struct FittedCylinder {
+  Model model = placed({cylinder(34, 10, 15)});
   std::vector<Diagnostic> diagnostics;
-  const auto boundaries = extract_boundaries(model, {}, diagnostics);
-  const auto contours = fit_contours(model, boundaries, {}, diagnostics);
+  std::vector<ShellBoundary> boundaries = extract_boundaries(model, {}, diagnostics);
+  std::vector<Contour> contours = fit_contours(model, boundaries, {}, diagnostics);
+};
+
+TEST_CASE("labels: every layer keeps its colours with one sample", "[render][samples]") {
+  const FittedCylinder fitted;
   RenderOptions options = of_samples(1);
   options.shading = Shading::None;
   options.background.reset();
@@ -179,20 +184,17 @@ TEST_CASE("labels: every layer keeps its colours with one sample", "[render][sam
     expected.insert(channels(color));
   }
   options.layers.erase(options.layers.begin(), options.layers.begin() + 3);  // the default
-  CHECK(colors_of(render(model, boundaries, contours, options)) == expected);
+  CHECK(colors_of(render(fitted.model, fitted.boundaries, fitted.contours, options)) == expected);
 }
 
 TEST_CASE("labels: an edge that patches share has the colour of one of them all along", "[render][samples]") {
-  const Model model = placed({cylinder(34, 10, 15)});
-  std::vector<Diagnostic> diagnostics;
-  const auto boundaries = extract_boundaries(model, {}, diagnostics);
-  const auto contours = fit_contours(model, boundaries, {}, diagnostics);
+  const FittedCylinder fitted;
   RenderOptions options = of_samples(1);
   options.color_by = GENERATE(ColorBy::Patch, ColorBy::Number);
   options.layers = {GENERATE(Layer::Edges, Layer::Curves)};
-  CHECK(colors_of(render(model, boundaries, contours, options)).size() == 2);
+  CHECK(colors_of(render(fitted.model, fitted.boundaries, fitted.contours, options)).size() == 2);
   options.layers = {Layer::Wireframe};
-  const Colors wires = colors_of(picture(model, options));
+  const Colors wires = colors_of(picture(fitted.model, options));
   CHECK(wires.size() == 4);
   if (options.color_by == ColorBy::Number)
     CHECK(wires == Colors{channels(kWhite), {0, 0, 1, 255}, {0, 0, 2, 255}, {0, 0, 3, 255}});
